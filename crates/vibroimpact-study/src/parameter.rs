@@ -161,7 +161,9 @@ impl SystemPlan {
                 exact.push((parameter, value));
             }
         }
-        exact.into_iter().try_fold(Self::of_body(&body)?, |system, (parameter, value)| system.changed(parameter, value))
+        exact
+            .into_iter()
+            .try_fold(Self::of_stored(body.stored())?, |system, (parameter, value)| system.changed(parameter, value))
     }
 
     /// The same nondimensional numbers but for one.

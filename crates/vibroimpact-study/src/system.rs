@@ -84,7 +84,11 @@ impl SystemPlan {
     /// # Errors
     /// [`PlanError`] names what is absent or given twice, or the invalid number.
     pub fn of_body(body: &Body) -> Result<Self, PlanError> {
-        let body = body.complete()?;
+        body.complete().and_then(Self::of_stored)
+    }
+
+    /// The system of a body in the form in which it is stored.
+    pub(crate) fn of_stored(body: Body) -> Result<Self, PlanError> {
         let oscillator = body.reduction()?.oscillator;
         Ok(Self {
             beta: Some(oscillator.beta()),

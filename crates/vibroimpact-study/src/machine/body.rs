@@ -157,14 +157,13 @@ impl Body {
         self.stop_displacement_m.is_some() || self.stop_in_space
     }
 
-    /// The same in the one form in which it is stored: a force, a damper and the restitution of a second stop are given, and nothing
-    /// is that has no effect.
+    /// The same in the one form in which it is [stored](Self::stored).
     ///
     /// # Errors
     /// [`PlanError::Missing`] names all numbers that are absent; [`PlanError::TwoForms`] names two forms of one
     /// number, and [`PlanError::StopAndBase`] a stop that moves beside a base that does.
     pub fn complete(&self) -> Result<Self, PlanError> {
-        let force_n = self.force_n.or(self.is_shaken().then_some(0.0));
+        let force_n = self.driving_force();
         let needed = [
             ("mass_kg", self.mass_kg),
             ("stiffness_n_per_m", self.stiffness_n_per_m),
@@ -177,7 +176,7 @@ impl Body {
         if !missing.is_empty() {
             return Err(PlanError::Missing(missing));
         }
-        let damped = one_of(&[
+        one_of(&[
             ("damping_ns_per_m", self.damping_ns_per_m),
             ("damping_ratio", self.damping_ratio),
             ("log_decrement", self.log_decrement),
@@ -194,12 +193,23 @@ impl Body {
         if self.stop_displacement_m.is_some() && (self.has_base() || self.stop_in_space) {
             return Err(PlanError::StopAndBase);
         }
+        Ok(self.stored())
+    }
+
+    /// The amplitude of the force; 0 when absent, if something else drives the body.
+    fn driving_force(&self) -> Option<f64> {
+        self.force_n.or(self.is_shaken().then_some(0.0))
+    }
+
+    /// The same in the one form in which it is stored: a force, a damper and the restitution of a second stop are given, and nothing
+    /// is that has no effect.
+    pub(crate) fn stored(&self) -> Self {
         let moves =
             |amplitude: Option<f64>, phase: f64| amplitude.filter(|amplitude| *amplitude != 0.0 || phase != 0.0);
         let effective = |value: Option<f64>| value.filter(|value| *value != 0.0);
         let mut stored = Self {
-            force_n,
-            damping_ns_per_m: if damped { self.damping_ns_per_m } else { Some(0.0) },
+            force_n: self.driving_force(),
+            damping_ns_per_m: self.damping_ns_per_m.or(self.direct_ratio().is_none().then_some(0.0)),
             second_restitution: self.second_gap_m.and(self.second_restitution.or(self.restitution)),
             base_displacement_m: moves(self.base_displacement_m, self.base_phase),
             stop_displacement_m: moves(self.stop_displacement_m, self.stop_phase),
@@ -214,7 +224,7 @@ impl Body {
         if stored.stop_displacement_m.is_none() {
             stored.stop_phase = 0.0;
         }
-        Ok(stored)
+        stored
     }
 
     /// The angular frequency of what drives the body, in rad/s.
@@ -412,7 +422,13 @@ impl Body {
         }
         let mut changed = *self;
         match parameter {
-            Parameter::Body(number) => changed.set(number, value),
+            Parameter::Body(number) => {
+                // a stop that leaves its base keeps the phase
+                if number == BodyNumber::StopDisplacement && self.stop().is_none() {
+                    changed.stop_phase = self.base_phase;
+                }
+                changed.set(number, value);
+            }
             Parameter::Beta | Parameter::InverseBeta => {
                 let time = self.reduction()?.time();
                 let omega = if parameter == Parameter::Beta { value / time } else { 1.0 / (value * time) };
@@ -485,15 +501,15 @@ impl Body {
     }
 }
 
-/// Whether a number is given, in any of its forms.
+/// Checks that a number is given in one of its forms at most.
 ///
 /// # Errors
 /// [`PlanError::TwoForms`] if there are two.
-fn one_of(forms: &[(&'static str, Option<f64>)]) -> Result<bool, PlanError> {
+fn one_of(forms: &[(&'static str, Option<f64>)]) -> Result<(), PlanError> {
     let mut given = forms.iter().filter(|(_, value)| value.is_some());
     match (given.next(), given.next()) {
         (Some((first, _)), Some((second, _))) => Err(PlanError::TwoForms(first, second)),
-        (first, _) => Ok(first.is_some()),
+        _ => Ok(()),
     }
 }
 
@@ -572,6 +588,21 @@ mod tests {
         // what has no effect is not stored
         let idle = Body { gravity_m_per_s2: Some(0.0), base_displacement_m: Some(0.0), stop_in_space: true, ..PLAIN };
         assert_eq!(idle.complete().unwrap(), PLAIN);
+    }
+
+    /// Beside a stop that moves by itself a base may move, and a stop may leave its base: where the motion begins to vary, nothing
+    /// jumps.
+    #[test]
+    fn a_motion_varies_beside_another() {
+        let on_base = Body { base_displacement_m: Some(0.003), base_phase: 0.4, ..PLAIN };
+        let alone = Body { stop_displacement_m: Some(3e-4), stop_phase: 0.7, ..PLAIN };
+        for (body, number) in [(on_base, B::StopDisplacement), (alone, B::BaseDisplacement)] {
+            let system = SystemPlan::of_body(&body).unwrap();
+            let (parameter, from) = (Parameter::Body(number), number.get(&body).unwrap());
+            let (same, other) = (system.with(parameter, from).unwrap(), system.with(parameter, from + 1e-4).unwrap());
+            assert!((same.gap - system.gap).abs() < 1e-14 * system.gap, "{} {}", same.gap, system.gap);
+            assert!((other.gap - system.gap).abs() > 1e-3 * system.gap, "{} {}", other.gap, system.gap);
+        }
     }
 
     #[test]
