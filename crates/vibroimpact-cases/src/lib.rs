@@ -14,7 +14,6 @@
 //! | a case as a machine file | [`Case::toml`], `toml` |
 //! | gaps, forces and energies from the numbers of a machine alone | `quantities` |
 //! | what must hold of every motion | [`faults`], [`Rule`] |
-//! | what is known to be wrong | [`DIFFERS`] |
 //!
 //! ```
 //! use vibroimpact_cases::{FAMILIES, DrawnFamily};
@@ -29,7 +28,6 @@ mod changes;
 mod draw;
 mod families;
 mod invariance;
-mod open;
 mod quantities;
 mod rules;
 mod toml;
@@ -39,5 +37,4 @@ pub use changes::{Changed, Rewriting, changed};
 pub use draw::Draw;
 pub use families::{DrawnFamily, FAMILIES};
 pub use invariance::{Standard, rounded};
-pub use open::DIFFERS;
 pub use rules::{BrokenRule, Budget, Rule, faults};

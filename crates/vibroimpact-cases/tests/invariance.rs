@@ -6,7 +6,7 @@ use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::Stability;
 use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
-use vibroimpact_cases::{Budget, Case, DIFFERS, FAMILIES, Rewriting, Standard, changed, rounded};
+use vibroimpact_cases::{Budget, Case, FAMILIES, Rewriting, Standard, changed, rounded};
 
 fn long() -> bool {
     std::env::var("VIBROIMPACT_LONG").is_ok()
@@ -24,7 +24,6 @@ fn events_do_not_depend_on_names_order_units_and_signs() {
             for change in Rewriting::ALL {
                 match standard.same_written(&case, change, budget) {
                     Ok(count) => instants += count,
-                    Err(_) if DIFFERS.contains(&(family.name, seed)) => {}
                     Err(what) => wrong.push(format!("{} {seed} {what}", family.name)),
                 }
             }
@@ -32,6 +31,20 @@ fn events_do_not_depend_on_names_order_units_and_signs() {
     }
     println!("{instants} instants compared");
     assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// Machines whose events have depended on how they are written: the times of sums of impacts on several stops or with joints in
+/// between, to 1e-11, and which of two bodies that hold and touch bears a load.
+#[test]
+fn mended_machines_move_alike_in_any_writing() {
+    let budget = Budget { stretches: 40, time: 25.0 };
+    for (name, seed) in [("columns", 53), ("friction", 25), ("friction", 44), ("duplicates", 46), ("friction", 35)] {
+        let case = vibroimpact_cases::DrawnFamily::named(name).unwrap().case(seed);
+        let standard = Standard::new(&case, budget);
+        for change in Rewriting::ALL {
+            assert_eq!(standard.same_written(&case, change, budget).err(), None, "{name} {seed}");
+        }
+    }
 }
 
 /// A machine with a stop or a joint twice moves as the one with it once.
@@ -171,12 +184,13 @@ fn chaos_of_one_part_is_found_in_any_order() {
 }
 
 /// A column of three bodies on a floor comes to rest, however it is written: the lower two collapse again and again, ever more
-/// gently, at gaps below the rounding errors of their coordinates. Rounding errors made a cycle of it that did not end.
+/// gently, at gaps below the rounding errors of their coordinates. Rounding errors made a cycle of it that did not end; twice beside
+/// itself a column was summed too early, because changes were counted and not the times at which there are some.
 #[test]
 fn columns_collapse_to_rest_in_any_writing() {
     let family = vibroimpact_cases::DrawnFamily::named("columns").unwrap();
     let options = SettleOptions::at_most(1000);
-    for seed in [8, 11] {
+    for seed in [8, 11, 43] {
         let case = family.case(seed);
         let rewritten = Rewriting::ALL.map(|change| changed(&case, change));
         let others = rewritten.iter().map(|again| (&again.machine, &again.start));

@@ -284,10 +284,12 @@ impl Answer {
 
     /// The object that the command prints with `--json`; [brief](vibroimpact_report::Answer::brief), if it is asked.
     fn json(&self, py: Python<'_>, brief: bool) -> Result<String, Trouble> {
+        if brief {
+            // nothing is computed
+            return Ok(door::here(py, || self.0.brief()));
+        }
         let answer = Arc::clone(&self.0);
-        door::run(py, Watch::alone("writing an answer"), move |_| {
-            Ok(if brief { answer.brief() } else { answer.json() })
-        })
+        door::run(py, Watch::alone("writing an answer"), move |_| Ok(answer.json()))
     }
 
     /// The figure that the command draws, as JSON; nothing for an answer without one. `units` are those of an oscillator in metres and

@@ -9,5 +9,5 @@ use std::path::PathBuf;
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn vibro(py: Python<'_>, words: Vec<OsString>, program: PathBuf) -> u8 {
-    door::command(py, || vibroimpact_cli::run(&words, Some(program)))
+    door::here(py, || vibroimpact_cli::run(&words, Some(program)))
 }

@@ -98,8 +98,8 @@ fn on_a_thread(mut job: Job) -> Result<(), Trouble> {
     to.send(job).map_err(|_| Trouble::Defect("starting a thread"))
 }
 
-/// Runs the command, which handles Ctrl-C itself, on this thread.
-pub(crate) fn command(py: Python<'_>, run: impl FnOnce() -> u8 + Send) -> u8 {
+/// Runs work on this thread that ends at once, or that handles Ctrl-C itself.
+pub(crate) fn here<T: Send>(py: Python<'_>, run: impl FnOnce() -> T + Send) -> T {
     py.detach(run)
 }
 

@@ -35,14 +35,17 @@ mod _core {
     #[pymodule_export]
     use crate::grid::{basin_measures, fill, labels_of, span_values};
     #[pymodule_export]
-    use crate::machine::{MachineFile, machine_names, machine_state, machine_waveform, simulate_machines};
+    use crate::machine::{
+        MachineFile, machine_names, machine_state, machine_waveform, simulate_machines, states_of_machines,
+    };
     #[pymodule_export]
     use crate::oscillator::OscillatorFile;
     #[pymodule_export]
     use crate::palette::{look_of, palette};
     #[pymodule_export]
     use crate::plan::{
-        body_parameters, checked_plan, coordinate_words, fixed_coordinates, point_coordinates, scales_of_points,
+        body_parameters, checked_plan, coordinate_words, fixed_coordinates, plan_schema, point_coordinates,
+        scales_of_points,
     };
     #[pymodule_export]
     use crate::points::{drawn_points, settle_points};

@@ -185,39 +185,131 @@ impl<'py> ManyEventFields<'py> {
     }
 }
 
-/// Follows machines event by event, from one start each. `numbers` are columns of numbers that vary, by their paths.
-#[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // arguments from Python
-pub(crate) fn simulate_machines<'py>(
-    py: Python<'py>,
+/// The results of `work` for machines with one start each. `numbers` are columns of numbers that vary, by their paths.
+fn each<T: Send + 'static>(
+    py: Python<'_>,
     file: &MachineFile,
-    numbers: Vec<(String, Vec<f64>)>,
-    starts: Vec<Start>,
-    limits: (Option<u64>, Option<f64>),
-    threads: usize,
-    progress: Option<Py<PyAny>>,
-) -> Result<ManyEventFields<'py>, Trouble> {
-    let (source, machine, total) = (file.0.clone(), file.0.machine()?, starts.len() as u64);
+    (numbers, starts): (Numbers, Vec<Start>),
+    (threads, progress): (usize, Option<Py<PyAny>>),
+    work: impl Fn(MachineSource, &events::Start, &Control<'_>) -> Result<T, Trouble> + Send + Sync + 'static,
+) -> Result<Vec<T>, Trouble> {
+    let (source, total) = (file.0.clone(), starts.len() as u64);
     let watch = Watch { what: "following machines", total, progress, threads };
-    let found = door::run(py, watch, move |control| {
+    door::run(py, watch, move |control| {
         let one = |k: usize| {
             let there = numbers.iter().try_fold(source.clone(), |there, (path, values)| there.with(path, values[k]))?;
             let (q, qdot, phase) = starts[k].clone();
-            let there = there.starting(&events::Start { q, qdot, phase, ..events::Start::default() });
-            let plan = Plan::new(there, Task::Simulate { start: None, impacts: limits.0, periods: limits.1 });
             // the progress is that of whole motions
             let alone = Control { stop: control.stop, threads: 1, ..Control::default() };
-            match run(&plan, &alone)? {
-                Results::Machine(machine::Results::Simulate(found)) => Ok(found),
-                _ => Err(Trouble::Defect("following machines")),
-            }
+            work(there, &events::Start { q, qdot, phase, ..events::Start::default() }, &alone)
         };
         let parts = tiles(total, 1, control, |range, tick| {
             let found = one(usize::try_from(range.start).unwrap_or(usize::MAX));
             tick();
             found
         })?;
-        parts.into_iter().collect::<Result<Vec<_>, Trouble>>()
+        parts.into_iter().collect()
+    })
+}
+
+/// Numbers that vary, as columns by path.
+type Numbers = Vec<(String, Vec<f64>)>;
+
+/// What is asked of a motion besides its events: the states at these times, those at a phase of the forcing in so many periods, or
+/// those where a coordinate crosses a position, up to so many periods.
+#[derive(FromPyObject)]
+pub(crate) enum Section {
+    Phase(f64, u32),
+    Position(String, f64, f64),
+    // last, because a tuple is a sequence too
+    At(Vec<f64>),
+}
+
+/// Time and phase, coordinates, and velocities.
+type State = (f64, f64, Vec<f64>, Vec<f64>);
+
+/// The states of a machine in a section. A start beyond a stop is an error.
+fn section(machine: &Machine, start: &events::Start, of: &Section) -> Result<Vec<State>, Trouble> {
+    let period = || machine.period().ok_or(PlanError::Unforced);
+    let wrong = |error: vibroimpact::machine::MachineError| PlanError::Machine(error.into());
+    let states = |times: &[f64]| -> Result<Vec<State>, Trouble> {
+        let nothing = || (f64::NAN, f64::NAN, vec![f64::NAN; machine.n()], vec![f64::NAN; machine.n()]);
+        let of = |state: Option<Sample>| {
+            state.map_or_else(nothing, |Sample { time, phase, q, qdot, .. }| (time, phase, q, qdot))
+        };
+        Ok(events::states_at(machine, start, times).map_err(wrong)?.into_iter().map(of).collect())
+    };
+    match of {
+        Section::At(times) => states(times),
+        Section::Phase(phase, count) => {
+            let period = period()?;
+            let first = vibroimpact::system::phase::wrap(phase - start.phase) / core::f64::consts::TAU;
+            let times: Vec<f64> = (0..*count).map(|k| (first + f64::from(k)) * period).collect();
+            let phase = vibroimpact::system::phase::wrap(*phase);
+            Ok(states(&times)?.into_iter().map(|(time, _, q, qdot)| (time, phase, q, qdot)).collect())
+        }
+        Section::Position(name, position, periods) => {
+            let until = periods * period()?;
+            let names = &machine.parts().coordinates;
+            let place = names
+                .iter()
+                .position(|one| one == name)
+                .ok_or_else(|| Trouble::question(format!("`{name}` is no coordinate\nhint: {}", names.join(", "))))?;
+            let found = events::crossings(machine, start, (place, *position), until).map_err(wrong)?;
+            Ok(found.into_iter().map(|Sample { time, phase, q, qdot, .. }| (time, phase, q, qdot)).collect())
+        }
+    }
+}
+
+/// The states of machines in a section: a row of `width` states for each, filled up with not-a-number. Times and phases, and one column
+/// for each coordinate and each velocity.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)] // arguments from Python
+pub(crate) fn states_of_machines<'py>(
+    py: Python<'py>,
+    file: &MachineFile,
+    numbers: Numbers,
+    starts: Vec<Start>,
+    of: Section,
+    threads: usize,
+    progress: Option<Py<PyAny>>,
+) -> Result<(usize, Vec<Bound<'py, PyArray1<f64>>>), Trouble> {
+    let n = file.0.machine()?.n();
+    let found = each(py, file, (numbers, starts), (threads, progress), move |there, start, _| {
+        let (machine, start) = there.starting(start).problem()?;
+        section(&machine, &start, &of)
+    })?;
+    let width = found.iter().map(Vec::len).max().unwrap_or(0);
+    let real = |value: &dyn Fn(&State) -> f64| {
+        let rows = found.iter().flat_map(|row| (0..width).map(|k| row.get(k).map_or(f64::NAN, value)));
+        column(py, rows)
+    };
+    let both = [real(&|state| state.0), real(&|state| state.1)];
+    let coordinates = (0..n).map(|k| real(&|state| state.2[k]));
+    let velocities = (0..n).map(|k| real(&|state| state.3[k]));
+    Ok((width, both.into_iter().chain(coordinates).chain(velocities).collect()))
+}
+
+/// Follows machines event by event, from one start each. `numbers` are columns of numbers that vary, by their paths.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)] // arguments from Python
+pub(crate) fn simulate_machines<'py>(
+    py: Python<'py>,
+    file: &MachineFile,
+    numbers: Numbers,
+    starts: Vec<Start>,
+    limits: (Option<u64>, Option<f64>),
+    threads: usize,
+    progress: Option<Py<PyAny>>,
+) -> Result<ManyEventFields<'py>, Trouble> {
+    let machine = file.0.machine()?;
+    let found = each(py, file, (numbers, starts), (threads, progress), move |there, start, control| {
+        let plan =
+            Plan::new(there.starting(start), Task::Simulate { start: None, impacts: limits.0, periods: limits.1 });
+        match run(&plan, control)? {
+            Results::Machine(machine::Results::Simulate(found)) => Ok(found),
+            _ => Err(Trouble::Defect("following machines")),
+        }
     })?;
     Ok(ManyEventFields::new(py, &found, &machine))
 }

@@ -39,6 +39,12 @@ pub(crate) fn points(plan: &Plan) -> u64 {
     work.map_or(0, |(points, _)| points)
 }
 
+/// The schema of plans as JSON, from which `generate.py` writes the types of the questions.
+#[pyfunction]
+pub(crate) fn plan_schema() -> Result<String, Trouble> {
+    text(&Plan::schema())
+}
+
 /// The plan in the form in which it is stored, its hash, its title, and the number of points of its grid.
 #[pyfunction]
 pub(crate) fn checked_plan(given: &str) -> Result<(String, String, String, u64), Trouble> {

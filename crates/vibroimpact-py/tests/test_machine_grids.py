@@ -117,5 +117,3 @@ def test_events_of_many_motions_are_those_of_each() -> None:
         assert ds.vibro.labels("stop")[k].values.tolist() == alone.stop.tolist()
         for name, column in {"time": alone.time, "speed": alone.speed, "q.head": alone.q[:, 1], "qdot.frame": alone.qdot[:, 0]}.items():
             np.testing.assert_array_equal(ds[name][k], column, err_msg=name)
-    with pytest.raises(QuestionError, match="at is for oscillators"):
-        HAMMER.simulate_many(at=[0.0, 1.0])

@@ -70,7 +70,12 @@ def test_listings_run_as_typed(root: Path, tmp_path: Path, monkeypatch: pytest.M
                 exec(compile(text, page, "exec"), names)
 
 
-TOOLS = [["mypy.stubtest", "vibroimpact._core"], ["mypy"], ["mypy", "--python-version", "3.10"]]
+def test_the_types_of_questions_are_those_of_plans(root: Path) -> None:
+    done = subprocess.run([sys.executable, "crates/vibroimpact-py/generate.py", "--check"], cwd=root, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+TOOLS = [["mypy.stubtest", "vibroimpact._core", "vibroimpact._questions"], ["mypy"], ["mypy", "--python-version", "3.10"]]
 #: Those of the long run only: what holds for the oldest Python hardly ever fails for a newer one.
 LONG = ["mypy"]
 

@@ -101,3 +101,51 @@ def test_questions_that_make_no_sense(s: vi.Oscillator) -> None:
     ):
         with pytest.raises(vi.QuestionError, match=sentence):
             vi.simulate_many(s, **given)
+
+
+HAMMER = vi.Machine.named("two-mass-hammer")
+OF_HAMMER = {"q.head": [0.1, -0.2], "qdot.frame": [0.3, 0.0]}
+
+
+def test_states_of_machines_are_those_of_their_waveforms() -> None:
+    times = np.linspace(0.0, 30.0, 61)
+    ds = HAMMER.simulate_many(over={"frequency": [1.1, 1.2]}, starts=OF_HAMMER, at=times)
+    assert dict(ds.sizes) == {"sample": 2, "time": 61} and ds["start.q.head"].values.tolist() == OF_HAMMER["q.head"]
+    for k, frequency in enumerate((1.1, 1.2)):
+        start = {"q": [0.0, OF_HAMMER["q.head"][k]], "qdot": [OF_HAMMER["qdot.frame"][k], 0.0]}
+        motion = HAMMER.set({"frequency": frequency}).simulate(**start, periods=6)
+        wave = motion.waveform(0.5, events=False)
+        assert wave.time[:60].tolist() == times[:60].tolist()
+        for number, path in enumerate(("q.frame", "q.head")):
+            np.testing.assert_allclose(ds[path].values[k, : len(wave)], wave.q[:61, number], rtol=0, atol=1e-12)
+        np.testing.assert_allclose(ds["force_phase"].values[k, :60], wave.phase[:60], rtol=0, atol=1e-12)
+
+
+def test_sections_of_machines() -> None:
+    strobes = HAMMER.simulate_many(starts=OF_HAMMER, phase=1.5, periods=20)
+    assert dict(strobes.sizes) == {"sample": 2, "state": 20} and np.unique(strobes["force_phase"]).tolist() == [1.5]
+    period = HAMMER.period
+    assert period is not None
+    np.testing.assert_allclose(strobes["time"].values[0], (1.5 / (2 * np.pi) + np.arange(20)) * period, rtol=1e-14)
+    section = HAMMER.simulate_many(starts=OF_HAMMER, position={"q.frame": 0.05}, periods=20)
+    for ds in (strobes, section):
+        for k in range(2):
+            row = ds.isel(sample=k).dropna("state")
+            one = {name: of[k] for name, of in OF_HAMMER.items()}
+            same = HAMMER.simulate_many(starts=one, at=row["time"].values)
+            assert row.sizes["state"] > 10
+            for path in ("q.frame", "q.head", "qdot.frame", "qdot.head"):
+                np.testing.assert_allclose(same[path].values, row[path].values, rtol=0, atol=1e-11)
+    np.testing.assert_allclose(section["q.frame"].values[0], 0.05, rtol=0, atol=1e-12)
+    signs = np.sign(section["qdot.frame"].isel(sample=0).dropna("state").values)
+    assert (signs[1:] == -signs[:-1]).all()
+    free = vi.Machine(coordinates=["x"], mass=[1], stiffness=[1], stops={"wall": {"at": "x", "gap": 0.5, "restitution": 0.5}})
+    assert free.simulate_many(starts={"qdot.x": [1.0]}, at=[0.1])["q.x"].item() == pytest.approx(np.sin(0.1), abs=1e-15)
+    for machine, given, sentence in (
+        (HAMMER, {"position": 0.1}, "position = 0.1 of which coordinate"),
+        (HAMMER, {"position": {"q.tail": 0.1}}, "there are q.frame, q.head"),
+        (free, {"phase": 0.0}, "no forcing"),
+        (free, {"position": 0.1}, "no forcing"),
+    ):
+        with pytest.raises(vi.QuestionError, match=sentence):
+            machine.simulate_many(**given)

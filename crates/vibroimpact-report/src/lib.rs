@@ -20,6 +20,7 @@
 
 pub mod answer;
 mod branch_quantity;
+mod contact;
 mod error;
 pub mod figure;
 pub mod json;
@@ -33,6 +34,7 @@ mod varied;
 
 pub use answer::{Answer, Shown, answer};
 pub use branch_quantity::BranchQuantity;
+pub use contact::{ContactAnswer, ContactObject};
 pub use error::{AnswerError, ReportError};
 pub use table::Table;
 pub use units::{Asked, Units};

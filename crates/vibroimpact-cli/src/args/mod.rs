@@ -42,4 +42,5 @@ pub(crate) use ranged_system::RangedSystemArgs;
 pub(crate) use start::StartArgs;
 pub(crate) use store::{Budget, BudgetArgs, Filling, StoreArgs, Tiles};
 pub(crate) use system::{Convention, NumbersArgs, SystemArgs, ranges};
+pub(crate) use unit_text::UnitKind;
 pub(crate) use vary::of_oscillator;

@@ -5,6 +5,7 @@ mod basin;
 mod bench;
 mod branch;
 mod completions;
+mod contact;
 mod curve;
 mod diagram;
 mod estimate;
@@ -79,6 +80,7 @@ enum Command {
     Region(region::Region),
     Response(response::Response),
     Margins(margins::Margins),
+    Contact(contact::Contact),
     Machine(machine::MachineCommand),
     Basin(basin::Basin),
     Map(map::Map),
@@ -114,6 +116,7 @@ pub(crate) fn run(line: &CommandLine, session: &Session) -> Result<(), Failure> 
         Command::Region(args) => region::run(args, session),
         Command::Response(args) => response::run(args, session),
         Command::Margins(args) => margins::run(args, session),
+        Command::Contact(args) => contact::run(args, session),
         Command::Machine(args) => machine::run(args, session),
         Command::Basin(args) => basin::run(args, session),
         Command::Map(args) => map::run(args, session),

@@ -22,7 +22,7 @@ pub(crate) mod status;
 pub(crate) mod stored;
 pub(crate) mod tallies;
 mod undecided;
-mod words;
+pub(crate) mod words;
 
 use crate::failure::Failure;
 use vibroimpact::events::End;

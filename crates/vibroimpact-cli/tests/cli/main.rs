@@ -4,6 +4,7 @@ mod answers;
 mod arguments;
 mod branches;
 mod colours;
+mod contact;
 mod diagrams;
 mod edges;
 mod excitation;

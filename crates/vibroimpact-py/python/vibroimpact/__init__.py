@@ -39,28 +39,30 @@ Results contain arrays. `plot()` draws a figure, `to_dict()` returns the fields 
 
 from typing import TYPE_CHECKING
 
-from vibroimpact import dask
-from vibroimpact._attractors import Attractor, Attractors, attractors
+from vibroimpact import _questions, dask
+from vibroimpact._attractors import Attractor, Attractors
 from vibroimpact._axis import Span, span
-from vibroimpact._branch import Branch, BranchEvent, Origin, branch
+from vibroimpact._branch import Branch, BranchEvent, Origin
 from vibroimpact._core import QuestionError, StoppedError, StoreError, __version__
-from vibroimpact._curve import Curve, CurveEvent, curve
+from vibroimpact._curve import Curve, CurveEvent
 from vibroimpact._events import Events
-from vibroimpact._grid import basin, orbit_diagram, region_map
-from vibroimpact._lyapunov import Closings, Lyapunov, Strobes, lyapunov
+from vibroimpact._lyapunov import Closings, Lyapunov, Strobes
 from vibroimpact._machine import Machine
-from vibroimpact._margins import MarginEnd, Margins, MotionBox, Nearest, ParameterMargin, margins
+from vibroimpact._margins import MarginEnd, Margins, MotionBox, Nearest, ParameterMargin
 from vibroimpact._motion import Measured, Motion
-from vibroimpact._orbits import EarlierContact, Orbit, Orbits, orbits
+from vibroimpact._orbits import EarlierContact, Orbit, Orbits
 from vibroimpact._oscillator import Oscillator, Questions, Units
 from vibroimpact._plan import Estimate, Plan
+from vibroimpact._questions import (
+    attractors, basin, branch, curve, lyapunov, margins, orbit_diagram, orbits, region, region_map, response, settle, simulate,
+)
 from vibroimpact._refine import refine
-from vibroimpact._region import Part, Polygon, Region, region
+from vibroimpact._region import Part, Polygon, Region
 from vibroimpact._register import register as _register
-from vibroimpact._response import Response, ResponseCurve, response
+from vibroimpact._response import Response, ResponseCurve
 from vibroimpact._sample import Sample, sample
-from vibroimpact._settle import Settled, Settlement, settle, settle_many
-from vibroimpact._simulate import Simulation, simulate
+from vibroimpact._settle import Settled, Settlement, settle_many
+from vibroimpact._simulate import Simulation
 from vibroimpact._simulate_many import simulate_many
 from vibroimpact._store import Ran, Status, Verified, open, resume, run, status, verify
 from vibroimpact._waveform import Waveform
@@ -80,6 +82,9 @@ _QUESTIONS = (
 )
 for _name, _question in {**{of.__name__: of for of in _QUESTIONS}, "map": region_map, "diagram": orbit_diagram}.items():
     setattr(Questions, _name, _question)
+# the plans of grids are made by functions of Plan
+for _name in ("map", "basin", "diagram", "lyapunov", "attractors"):
+    setattr(Plan, _name, staticmethod(getattr(_questions, f"plan_{_name}")))
 
 
 def __getattr__(name: str) -> object:

@@ -5,7 +5,6 @@ import math
 from collections.abc import Mapping
 from typing import Any, TypeAlias
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from vibroimpact import _core
@@ -45,6 +44,8 @@ class Start:
         else:
             _absent("a machine has q and qdot", x=x, v=v)
             self.of_machine = system.start_of(q, qdot, phase)
+        #: As `Simulation.start` is.
+        self.given = self.of_machine or (x, v or 0.0, phase or 0.0)
 
     def within(self, task: Mapping[str, Any]) -> dict[str, Any]:
         """A task with the start, where it belongs to the task."""
@@ -56,11 +57,6 @@ def _absent(hint: str, **given: object) -> None:
     for name, value in given.items():
         if value is not None:
             raise QuestionError(f"{name} is no part of the start of this system\nhint: {hint}")
-
-
-def given(**fields: Any) -> dict[str, Any]:
-    """The fields of a task that are not None."""
-    return {name: value.item() if isinstance(value, np.generic) else value for name, value in fields.items() if value is not None}
 
 
 def _finite(value: Any, name: str) -> None:
@@ -75,13 +71,14 @@ def _finite(value: Any, name: str) -> None:
         raise QuestionError(f"{name} = {'NaN' if math.isnan(value) else value} is not a finite number")
 
 
-def ask(
-    system: System, name: str, task: Mapping[str, Any], start: Start | None = None, *, total: int = 1, threads: int = 1,
+def answered(
+    system: System, name: str, fields: Mapping[str, Any], start: Start, *, total: int = 1, threads: int = 1,
     progress: Progress = None, what: str = "motions",
 ) -> _core.Answer:
-    """The answer to a task."""
-    from_ = (start or Start(system)).of_machine
+    """The answer to a task with these fields."""
     threads = threads_of(threads)
-    _finite(task, name)
+    _finite(fields, name)
+    if progress is None:
+        return _core.answer(system._file, start.of_machine, json.dumps({name: fields}), total, threads, None)
     with watched(progress, what) as tell:
-        return _core.answer(system._file, from_, json.dumps({name: task}), total, threads, tell)
+        return _core.answer(system._file, start.of_machine, json.dumps({name: fields}), total, threads, tell)

@@ -119,6 +119,13 @@ def _neither(over: tuple[object, ...]) -> str:
     return f"({listed}) is a tuple, which may be a list or a range\nhint: {hint}"
 
 
+def names(fields: Sequence[str]) -> list[str] | None:
+    """A list of names of quantities, or None if it is empty."""
+    if isinstance(fields, str):
+        raise _core.QuestionError(f"fields = `{fields}` is one text\nhint: a list of names, fields=[\"{fields}\"]")
+    return [str(name) for name in fields] or None
+
+
 def interval(given: Interval) -> tuple[float, float]:
     """The two ends of a range, in the given order."""
     parts: Sequence[object] = given.split(":") if isinstance(given, str) else given

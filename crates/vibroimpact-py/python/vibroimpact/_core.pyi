@@ -19,6 +19,7 @@ _Columns: TypeAlias = list[tuple[str, _Array]]
 __all__ = [
     "answer",
     "plan_json",
+    "plan_schema",
     "Answer",
     "shares_figure",
     "palette",
@@ -46,6 +47,7 @@ __all__ = [
     "machine_state",
     "machine_waveform",
     "simulate_machines",
+    "states_of_machines",
     "varied_parameters",
     "OscillatorFile",
     "contains",
@@ -113,6 +115,10 @@ def simulate_machines(
     file: MachineFile, numbers: list[tuple[str, list[float]]], starts: list[_MachineStart],
     limits: tuple[int | None, float | None], threads: int, progress: _Progress,
 ) -> _Fields: ...
+def states_of_machines(
+    file: MachineFile, numbers: list[tuple[str, list[float]]], starts: list[_MachineStart],
+    of: list[float] | tuple[float, int] | tuple[str, float, float], threads: int, progress: _Progress,
+) -> tuple[int, list[_Array]]: ...
 def machine_waveform(file: MachineFile, start: _MachineStart, until: float, step: float, events: bool) -> _Fields: ...
 def machine_names() -> list[str]: ...
 def machine_state(plan: str, event: int) -> str: ...
@@ -165,6 +171,7 @@ def shares_figure(osc: OscillatorFile, shares: list[tuple[str, float]]) -> str: 
 def plan_json(
     system: OscillatorFile | MachineFile, from_: _MachineStart | None, task: str, tile: int | None
 ) -> str: ...
+def plan_schema() -> str: ...
 def checked_plan(given: str) -> tuple[str, str, str, int]: ...
 def fixed_coordinates(text: str) -> list[tuple[str, float, str, str, str]]: ...
 def body_parameters() -> dict[str, str]: ...

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact._oscillator import Oscillator
-from vibroimpact._result import Result
+from vibroimpact._result import Rows
 
 _Floats = NDArray[np.float64]
 
@@ -45,7 +45,7 @@ def columns_of(found: Mapping[str, Any], n: int) -> dict[str, Any]:
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class Events(Result):
+class Events(Rows):
     """The events of a cycle in order of time, beginning with the fastest closing of a stop.
 
     Attributes
@@ -81,12 +81,6 @@ class Events(Result):
 
         kind, stop = (np.array([event[name] for event in events], dtype=np.str_) for name in ("kind", "stop"))
         return cls(kind, stop, floats("time"), floats("phase"), floats("speed"), rows("q"), rows("qdot"), names)
-
-    def __repr__(self) -> str:
-        return f"<Events: {len(self)}>"
-
-    def __len__(self) -> int:
-        return len(self.time)
 
     @property
     def closes(self) -> NDArray[np.bool_]:

@@ -1,20 +1,15 @@
 """Lyapunov exponents of a motion and the dimension of its attractor."""
 
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from vibroimpact import _core
-from vibroimpact._ask import Start, System, ask, given
 from vibroimpact._figure import heading, named
 from vibroimpact._motion import Motion, all_measured, maybe_measured
-from vibroimpact._oscillator import Oscillator
-from vibroimpact._progress import Progress
-from vibroimpact._result import Field, View, equal
+from vibroimpact._result import Field, Made, Part, View, equal
 from vibroimpact._styled import styled
-from vibroimpact._whole import MEASURED, SECTION, SIMULATED, TRANSIENT, maybe
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -75,28 +70,23 @@ class Lyapunov(View):
     grounds: dict[str, Any] | None
     exponents, exponents_per_period = Field(all_measured), Field(all_measured)
     sum, impacts_per_period = Field(maybe_measured), Field(maybe_measured)
+    motion = Part(Motion)
     dimension, flow_dimension = Field(maybe_measured, "dimension.section"), Field(maybe_measured, "dimension.flow")
 
-    def __init__(self, of: dict[str, Any], system: Any, answer: _core.Answer | None = None) -> None:
-        super().__init__(of, system, answer)
-        none, states = np.empty(0), np.empty((0, len(of["system"]["coordinates"])))
-        found = (None if answer is None else answer.columns()) or {
-            "stop": [], "phase": none, "speed": none, **{name: states for name in ("q", "qdot", "strobe_q", "strobe_qdot")},
-        }
-        stop = np.array(found["stop"], dtype=np.str_)
-        self.closings = Closings(stop, *(found[name] for name in ("phase", "speed", "q", "qdot")))
-        self.strobes = Strobes(found["strobe_q"], found["strobe_qdot"])
+    _points: Made[dict[str, Any]] = Made(lambda of: (of._answer and of._answer.columns()) or _no_points(of._of))
+    closings: Made[Closings] = Made(
+        lambda of: Closings(np.array(of._points["stop"], np.str_), *(of._points[name] for name in ("phase", "speed", "q", "qdot")))
+    )
+    strobes: Made[Strobes] = Made(lambda of: Strobes(of._points["strobe_q"], of._points["strobe_qdot"]))
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**super().__getstate__(), "_points": self._points}
 
     def __eq__(self, other: object) -> bool:
         same = super().__eq__(other)
         return same if same is not True else equal((self.closings, self.strobes), (other.closings, other.strobes))  # type: ignore[attr-defined]
 
     __hash__ = None
-
-    @cached_property
-    def motion(self) -> Motion:
-        """The motion."""
-        return Motion(self._of["motion"], self.system)
 
     def __repr__(self) -> str:
         first = f"{self.exponents[0].value:.5g} +- {self.exponents[0].error:.1g}" if self.exponents else "unknown"
@@ -137,56 +127,6 @@ class Lyapunov(View):
         return drawn
 
 
-def lyapunov(
-    system: System,
-    *,
-    x: float | None = None,
-    v: float | None = None,
-    q: ArrayLike | None = None,
-    qdot: ArrayLike | None = None,
-    phase: float | None = None,
-    impacts: int | None = None,
-    transient: int | None = None,
-    points: int | None = None,
-    progress: Progress = None,
-) -> Lyapunov:
-    """Measure the Lyapunov exponents of a motion, with error bars, and the dimension of its attractor.
-
-    Parameters
-    ----------
-    system : Oscillator or Machine
-        The system.
-    x, v, phase : float
-        Start of an oscillator: position in units of F/k (default: at rest, or on the stop), velocity, phase of the force in radians.
-    q, qdot, phase : array, array, float
-        Start of a machine: coordinates, velocities and phase. Default: those of its `start`, or 0.
-    impacts : int
-        Number of impacts of the measurement, 1000 to 1e7, default 100 000; of a machine of events, from 25, default 20 000. The error
-        bar decreases with its square root.
-    transient : int
-        Number of impacts before the measurement, and of forcing periods before the stroboscopic section. Default: 1000.
-    points : int
-        Number of points of each section of the attractor, 1 to 100000; by default no sections.
-    progress : bool or callable
-        True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
-
-    Examples
-    --------
-    >>> import vibroimpact as vi
-    >>> found = vi.lyapunov(vi.Oscillator(inverse_beta=1.11, gap=3, restitution=0.5), impacts=10_000)
-    >>> found.motion.label, found.exponents[0].value > found.exponents[0].error
-    ('chaotic', True)
-    >>> abs(found.sum.value - found.identity) < 1e-9
-    True
-    >>> len(vi.Machine.named("two-mass-hammer").lyapunov(impacts=2000).exponents)
-    4
-    """
-    start = Start(system, x, v, q, qdot, phase)
-    range_ = MEASURED if isinstance(system, Oscillator) else SIMULATED
-    impacts, transient = maybe("impacts", impacts, range_), maybe("transient", transient, TRANSIENT)
-    points = maybe("points", points, SECTION)
-    task = start.within(given(impacts=impacts, transient=transient, points=points))
-    before = 1000 if transient is None else transient
-    total = before + (impacts or 100_000) + (0 if points is None else before + points)
-    total = total if isinstance(system, Oscillator) else 1
-    return Lyapunov.answering(ask(system, "lyapunov", task, start, total=total, progress=progress, what="impacts"), system)
+def _no_points(of: dict[str, Any]) -> dict[str, Any]:
+    none, states = np.empty(0), np.empty((0, len(of["system"]["coordinates"])))
+    return {"stop": [], "phase": none, "speed": none, **dict.fromkeys(("q", "qdot", "strobe_q", "strobe_qdot"), states)}

@@ -2,8 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +11,11 @@ from vibroimpact._core import QuestionError
 from vibroimpact._events import Events
 from vibroimpact._figure import named
 from vibroimpact._oscillator import Oscillator
-from vibroimpact._result import Field, View
-from vibroimpact._simulate import Simulation, simulate
+from vibroimpact._result import Field, Made, View
 from vibroimpact._waveform import Waveform, waveform
+
+if TYPE_CHECKING:
+    from vibroimpact._simulate import Simulation
 
 #: Minimum number of forcing periods, and of cycles without forcing, in a figure of a periodic motion.
 _SHOWN, _CYCLES = 6, 3
@@ -169,10 +170,7 @@ class Motion(View):
     def _remark(self) -> str:
         return ""
 
-    @cached_property
-    def cycle(self) -> Events:
-        """The events of one period."""
-        return Events.of(self._of["cycle"], self.system)
+    cycle: Made[Events] = Made(lambda of: Events.of(of._of["cycle"], of.system))
 
     def _table(self) -> dict[str, Any]:
         """One row for each event of the cycle."""
@@ -223,8 +221,10 @@ class Motion(View):
         figure["title"] = f"{(figure['title'] or 'machine').split(': ')[0]}: {named(self.label)}"
         return shown._painted(figure, ax, legend, title, line)
 
-    def _some_periods(self) -> Simulation:
+    def _some_periods(self) -> "Simulation":
         """The motion over some of its periods."""
+        from vibroimpact._questions import simulate
+
         turns = self.periods or 1
         if isinstance(self.system, Oscillator):
             return simulate(self.system, **self.start(), periods=turns * max(2, math.ceil(_SHOWN / turns)))

@@ -9,9 +9,7 @@ from vibroimpact import _core
 from vibroimpact._core import QuestionError
 
 if TYPE_CHECKING:
-    from vibroimpact import (
-        _attractors, _branch, _curve, _grid, _lyapunov, _margins, _orbits, _region, _response, _settle, _simulate, _simulate_many,
-    )
+    from vibroimpact import _questions, _settle, _simulate_many
 
 T = TypeVar("T")
 
@@ -38,21 +36,21 @@ class Questions:
     __slots__ = ()
 
     if TYPE_CHECKING:
-        simulate = _simulate.simulate
+        simulate = _questions.simulate
         simulate_many = _simulate_many.simulate_many
-        settle = _settle.settle
+        settle = _questions.settle
         settle_many = _settle.settle_many
-        attractors = _attractors.attractors
-        lyapunov = _lyapunov.lyapunov
-        orbits = _orbits.orbits
-        branch = _branch.branch
-        curve = _curve.curve
-        region = _region.region
-        margins = _margins.margins
-        response = _response.response
-        basin = _grid.basin
-        map = _grid.region_map
-        diagram = _grid.orbit_diagram
+        attractors = _questions.attractors
+        lyapunov = _questions.lyapunov
+        orbits = _questions.orbits
+        branch = _questions.branch
+        curve = _questions.curve
+        region = _questions.region
+        margins = _questions.margins
+        response = _questions.response
+        basin = _questions.basin
+        map = _questions.region_map
+        diagram = _questions.orbit_diagram
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

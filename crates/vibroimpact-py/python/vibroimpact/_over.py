@@ -67,11 +67,11 @@ class _Collected(NamedTuple):
 
 
 def points(
-    systems: "Oscillator | Points", over: "Points | None", starts: "Points | None"
+    system: "Oscillator | Points", over: "Points | None", starts: "Points | None"
 ) -> Over:
     """The points of systems and starts, broadcast against each other."""
-    osc, own = (systems, None) if isinstance(systems, Oscillator) else (None, systems)
-    fixed, columns, sizes, coords = _collected({"systems": own, "over": over, "starts": starts}, _PARAMETERS, _STARTS)
+    osc, own = (system, None) if isinstance(system, Oscillator) else (None, system)
+    fixed, columns, sizes, coords = _collected({"system": own, "over": over, "starts": starts}, _PARAMETERS, _STARTS)
     first = {name: values for name, values in fixed.items() if name not in _STARTS}
     first |= {name: float(values[0]) for name, values in columns if name not in _STARTS}
     if osc is None:
@@ -152,7 +152,7 @@ def _named(where: str, of: Any, known: tuple[str, ...]) -> dict[str, Any]:
         return {str(name): values for name, values in of.items()}
     raise TypeError(
         f"{where} is {type(of).__name__}, and not an Oscillator, a Machine, a mapping of names to arrays, a DataFrame or a Dataset"
-        if where == "systems"
+        if where == "system"
         else f"{where} is {type(of).__name__}, and not a mapping of names to arrays, a DataFrame or a Dataset"
     )
 

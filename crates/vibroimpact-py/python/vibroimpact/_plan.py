@@ -5,19 +5,22 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from numpy.typing import ArrayLike
+import numpy as np
 
 from vibroimpact import _core
-from vibroimpact._ask import Start, System, given
-from vibroimpact._axis import Axis, Interval, axes, beside, interval, sweep
+from vibroimpact._ask import Start, System
+from vibroimpact._axis import names
 from vibroimpact._budget import Budget, seconds
 from vibroimpact._machine import Machine
 from vibroimpact._oscillator import Oscillator
 from vibroimpact._over import MachineOver, Points, machine_points, points
 from vibroimpact._sample import Sample
-from vibroimpact._whole import BLOCKS, BUDGET, KEEP, MEASURED, POINT_STARTS, REFINE, SEED, SHARD, SIMULATED, STARTS, TILE, TRANSIENT, maybe, threads_of, whole
+from vibroimpact._whole import BLOCKS, BUDGET, SHARD, TILE, maybe, threads_of, whole
+
+if TYPE_CHECKING:
+    from vibroimpact import _questions
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,63 +152,16 @@ class Plan:
         except _core.QuestionError as error:
             raise _core.QuestionError(f"`{file}`: {error}") from None
 
-    @classmethod
-    def map(
-        cls,
-        osc: System,
-        over: Mapping[str, Axis],
-        *,
-        starts: int = 8,
-        seed: int = 1,
-        refine: int | None = None,
-        impacts: int | None = None,
-        fields: Sequence[str] = (),
-        tile: int | None = None,
-    ) -> "Plan":
-        """A plan for the motions at each point of a plane of parameters; the arguments are those of `region_map`."""
-        task = {
-            "axes": axes(over),
-            "starts": whole("starts", starts, POINT_STARTS),
-            "seed": whole("seed", seed, SEED),
-            "refine": maybe("refine", refine, REFINE),
-            "impacts": maybe("impacts", impacts, BUDGET),
-            "fields": names(fields),
-        }
-        return cls._of(osc, "map", task, tile)
+    if TYPE_CHECKING:
+        map = staticmethod(_questions.plan_map)
+        basin = staticmethod(_questions.plan_basin)
+        diagram = staticmethod(_questions.plan_diagram)
+        lyapunov = staticmethod(_questions.plan_lyapunov)
+        attractors = staticmethod(_questions.plan_attractors)
 
-    @classmethod
-    def basin(
-        cls,
-        osc: System,
-        over: Mapping[str, Axis],
-        *,
-        x: float | None = None,
-        v: float | None = None,
-        q: ArrayLike | None = None,
-        qdot: ArrayLike | None = None,
-        phase: float | None = None,
-        refine: int | None = None,
-        impacts: int | None = None,
-        fields: Sequence[str] = (),
-        tile: int | None = None,
-    ) -> "Plan":
-        """A plan for the motion to which each start leads, over "x", "v", "phase" and parameters. Other values are those given.
-
-        For a machine it is over "q.COORDINATE", "qdot.COORDINATE" and "phase".
-        """
-        task = {
-            "axes": axes(over),
-            "refine": maybe("refine", refine, REFINE),
-            "impacts": maybe("impacts", impacts, BUDGET),
-            "fields": names(fields),
-        }
-        start = Start(osc, x, v, q, qdot, phase)
-        return cls._of(osc, "basin", start.within(task), tile, start)
-
-    @classmethod
+    @staticmethod
     def samples(
-        cls,
-        systems: "System | Points",
+        system: "System | Points",
         *,
         over: "Points | None" = None,
         starts: "Points | None" = None,
@@ -218,12 +174,12 @@ class Plan:
 
         The plan of a `Sample` keeps how its points are drawn; that of arrays keeps them.
         """
-        all_given: dict[str, Any] = {"systems": systems, "over": over, "starts": starts}
+        all_given: dict[str, Any] = {"system": system, "over": over, "starts": starts}
         drawn = {name: of for name, of in all_given.items() if isinstance(of, Sample)}
         if len(drawn) > 1:
             raise _core.QuestionError(f"{' and '.join(drawn)} are two samples\nhint: one sample of all that varies")
         asked: dict[str, Any] = {name: of.low() if isinstance(of, Sample) else of for name, of in all_given.items()}
-        all_ = machine_points(*asked.values()) if isinstance(systems, Machine) else points(*asked.values())
+        all_ = machine_points(*asked.values()) if isinstance(system, Machine) else points(*asked.values())
         if drawn:
             if all_.sizes:
                 raise _core.QuestionError("a sample and arrays are two sets of points\nhint: the arrays of the sample, dict(sample)")
@@ -236,115 +192,19 @@ class Plan:
         if isinstance(all_, MachineOver):
             if transient:
                 raise _core.QuestionError("transient counts the impacts of an oscillator")
-            return cls._of(all_.machine, "settle_many", task, tile, Start(all_.machine, None, None, *all_.start))
+            return made(all_.machine, "settle_many", task, tile, Start(all_.machine, None, None, *all_.start))
         start = {name: of for name, of in zip(("x", "v", "phase"), all_.start) if name not in varied}
         task |= {
             "start": {name: of for name, of in start.items() if of is not None},
             "transient": True if transient else None,
         }
-        return cls._of(all_.osc, "basin", task, tile)
-
-    @classmethod
-    def diagram(
-        cls,
-        osc: System,
-        vary: str,
-        over: Axis,
-        *,
-        also: Mapping[str, Interval] | None = None,
-        show: str | None = None,
-        direction: str = "both",
-        starts: int | None = None,
-        seed: int | None = None,
-        transient: int = 500,
-        keep: int = 64,
-        tile: int | None = None,
-    ) -> "Plan":
-        """A plan for the motion after its transient along one parameter or a line through two; arguments as for `orbit_diagram`."""
-        machine = not isinstance(osc, Oscillator)
-        show = show or ("speed" if machine else "velocity")
-        if not machine:
-            _known("show", show, ("velocity", "strobe"))
-        _known("direction", direction, ("up", "down", "both", "scatter"))
-        way: object = direction
-        if direction == "scatter":
-            starts, seed = 8 if starts is None else starts, 1 if seed is None else seed
-            way = {"scatter": {"starts": whole("starts", starts, STARTS), "seed": whole("seed", seed, SEED)}}
-        elif starts is not None or seed is not None:
-            raise _core.QuestionError('starts and seed belong to direction="scatter"')
-        second = beside(also)
-        keys = ("path" if machine else "parameter", "from", "to")
-        line = {} if second is None else {"also": dict(zip(keys, (second[0], *interval(second[1]))))}
-        task = {
-            "vary": vary,
-            "over": sweep(over),
-            **line,
-            "show": show,
-            "direction": way,
-            "transient": whole("transient", transient, TRANSIENT),
-            "keep": whole("keep", keep, KEEP),
-        }
-        return cls._of(osc, "diagram", task, tile)
-
-    @classmethod
-    def lyapunov(
-        cls,
-        osc: System,
-        over: Mapping[str, Axis],
-        *,
-        x: float | None = None,
-        v: float | None = None,
-        q: ArrayLike | None = None,
-        qdot: ArrayLike | None = None,
-        phase: float | None = None,
-        impacts: int | None = None,
-        transient: int = 1000,
-        tile: int | None = None,
-    ) -> "Plan":
-        """A plan for all Lyapunov exponents over parameters and coordinates of the start.
-
-        For a machine it is over paths of numbers, "q.COORDINATE", "qdot.COORDINATE" and "phase". They are measured over
-        100 000 impacts of an oscillator and 20 000 events of a machine, if nothing else is given.
-        """
-        task = {
-            "axes": axes(over),
-            "impacts": maybe("impacts", impacts, MEASURED if isinstance(osc, Oscillator) else SIMULATED),
-            "transient": whole("transient", transient, TRANSIENT),
-        }
-        start = Start(osc, x, v, q, qdot, phase)
-        return cls._of(osc, "lyapunov", start.within(task), tile, start)
-
-    @classmethod
-    def attractors(
-        cls, osc: Oscillator, starts: int, *, seed: int = 1, impacts: int | None = None, tile: int | None = None
-    ) -> "Plan":
-        """A plan for the motion to which each of many scattered starts leads."""
-        task = {
-            "starts": whole("starts", starts, STARTS),
-            "seed": whole("seed", seed, SEED),
-            "impacts": maybe("impacts", impacts, BUDGET),
-        }
-        return cls._of(osc, "attractors", task, tile)
-
-    @classmethod
-    def _of(
-        cls, osc: System, name: str, task: dict[str, Any], tile: int | None, start: Start | None = None
-    ) -> "Plan":
-        from_, asked = (start or Start(osc)).of_machine, json.dumps({name: given(**task)})
-        text = _core.plan_json(osc._file, from_, asked, maybe("tile", tile, TILE))
-        if isinstance(osc, Oscillator) and osc.units is not None:
-            # the numbers of the plan are nondimensional; its results can be converted with these units
-            text = json.dumps({**json.loads(text), "units": asdict(osc.units)})
-        return cls(text)
+        return made(all_.osc, "basin", task, tile, Start(all_.osc))
 
 
-def _known(what: str, given: str, known: tuple[str, ...]) -> None:
-    if given not in known:
-        raise _core.QuestionError(f"{what} = `{given}` is none of {', '.join(known)}")
-
-
-def names(fields: Sequence[str]) -> list[str] | None:
-    """A list of names of quantities, or None if it is empty."""
-    if isinstance(fields, str):
-        raise _core.QuestionError(f"fields = `{fields}` is one text\nhint: a list of names, fields=[\"{fields}\"]")
-    return [str(name) for name in fields] or None
+def made(system: System, task: str, fields: Mapping[str, Any], tile: int | None, start: Start) -> Plan:
+    """The plan of a task with these fields, of which None are absent."""
+    asked = json.dumps({task: {name: of.item() if isinstance(of, np.generic) else of for name, of in fields.items() if of is not None}})
+    text = _core.plan_json(system._file, start.of_machine, asked, maybe("tile", tile, TILE))
+    units = system.units if isinstance(system, Oscillator) else None
+    # the numbers of the plan are nondimensional; its results can be converted with these units
+    return Plan(text if units is None else json.dumps({**json.loads(text), "units": asdict(units)}))

@@ -27,7 +27,7 @@ _MOST_SIDES = 4
 
 
 def refine(
-    systems: "Oscillator | Points",
+    system: "Oscillator | Points",
     over: Mapping[str, Interval],
     store: str | PathLike[str],
     *,
@@ -52,7 +52,7 @@ def refine(
 
     Parameters
     ----------
-    systems : Oscillator, mapping, DataFrame or Dataset
+    system : Oscillator, mapping, DataFrame or Dataset
         The system; parameters that vary have their values from `over`.
     over : mapping
         Ranges of 1 to 4 parameters and coordinates of the start: {"inverse_beta": (0.5, 2), "gap": (0, 3)}.
@@ -99,7 +99,7 @@ def refine(
     for number in range(rounds + 1):
         new = lattice.unknown(_corners(open_cells, side))
         if len(new):
-            ds = _round((systems, lattice.values(new), starts), (fields, impacts, tile), f"{place}/round-{number}.zarr", (client, threads, progress))
+            ds = _round((system, lattice.values(new), starts), (fields, impacts, tile), f"{place}/round-{number}.zarr", (client, threads, progress))
             lattice.learn(new, ds["label"].values)
             found.append(ds.assign(round=("sample", np.full(len(new), number, dtype=np.int8), {"long_name": "round of the refinement", "units": "1"})))
         open_cells = open_cells[lattice.differ(_corners(open_cells, side))]
@@ -172,17 +172,17 @@ def _round(
     """The Dataset of the points of one round."""
     from vibroimpact import _grid, _many
 
-    (systems, values, starts), (fields, impacts, tile), (client, threads, progress) = points, options, how
+    (system, values, starts), (fields, impacts, tile), (client, threads, progress) = points, options, how
     of_starts = {name: of for name, of in values.items() if name in ("x", "v", "phase")}
     of_systems = {name: of for name, of in values.items() if name not in of_starts}
-    if isinstance(systems, Oscillator):
-        given: Any = systems
+    if isinstance(system, Oscillator):
+        given: Any = system
     else:
-        given = {**dict(systems), **of_systems}
+        given = {**dict(system), **of_systems}
         of_systems = {}
     starts = {**dict(starts or {}), **of_starts}
     plan = Plan.samples(given, over=of_systems or None, starts=starts or None, fields=fields, impacts=impacts, tile=tile)
     if not place.startswith("s3://"):
         os.makedirs(os.path.dirname(place), exist_ok=True)
-    ds = _grid.computed(plan, systems.units if isinstance(systems, Oscillator) else None, place, client, threads, progress)
+    ds = _grid.computed(plan, system.units if isinstance(system, Oscillator) else None, place, client, threads, progress)
     return _many.with_whole_numbers(ds)

@@ -8,12 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core
-from vibroimpact._ask import System, ask
-from vibroimpact._axis import Interval, numbers, plane
-from vibroimpact._oscillator import Oscillator
-from vibroimpact._progress import Progress
-from vibroimpact._result import Field, Result, View
-from vibroimpact._whole import GRID, whole
+from vibroimpact._axis import numbers
+from vibroimpact._result import Field, Made, Result, View, pair
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
@@ -99,21 +95,11 @@ class Region(View):
     neutrally_stable: bool
     existence: Field[Part] = Field(lambda of: _part(of))
     stability: Field[Part] = Field(lambda of: _part(of))
-
-    @property
-    def parameters(self) -> tuple[str, str]:
-        """The two parameters."""
-        return tuple(next(iter(side.values())) for side in self._sides)
-
-    @property
-    def ranges(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Their ranges."""
-        return tuple((side["from"], side["to"]) for side in self._sides)  # type: ignore[return-value]
-
-    @property
-    def _sides(self) -> list[dict[str, Any]]:
-        task = self._of["plan"]["task"]["region"]
-        return [task["across"], task["up"]]
+    _sides: Field[list[dict[str, Any]]] = Field(lambda task: [task["across"], task["up"]], "plan.task.region")
+    parameters: Made[tuple[str, str]] = Made(lambda of: pair(next(iter(side.values())) for side in of._sides))
+    ranges: Made[tuple[tuple[float, float], tuple[float, float]]] = Made(
+        lambda of: pair((side["from"], side["to"]) for side in of._sides)
+    )
 
     def __repr__(self) -> str:
         parts = f"existence {len(self.existence.polygons)}, stability {len(self.stability.polygons)} polygons"
@@ -133,54 +119,6 @@ def _vertices(parts: "list[tuple[str, Part]]", names: tuple[str, str]) -> dict[s
                 for name, value in zip(table, (region_, k, polygon.hole, p, q, bound)):
                     table[name].append(value)
     return table
-
-
-def region(
-    system: System,
-    label: str,
-    over: Mapping[str, Interval],
-    *,
-    grid: int = 24,
-    threads: int = 0,
-    progress: Progress = None,
-) -> Region:
-    """Find the regions of a plane of two parameters in which the motion m/n exists and is stable, as closed polygons.
-
-    Orbits are searched on a grid. From each orbit the boundary of its part of the region is followed along the curves of
-    events that form it.
-
-    Parameters
-    ----------
-    system : Oscillator or Machine
-        The system; its values of the two parameters are ignored. A machine must have one coordinate on a spring, forcing of
-        order 1, no friction, and one rigid stop or two on opposite sides.
-    label : str
-        The label "m/n" of the motion.
-    over : mapping
-        Two parameters and their ranges, the abscissa first: {"inverse_beta": (0.4, 2), "gap": (-1, 5)}. With
-        physical units also two of them: {"mass_kg": (0.7, 0.95), "force_n": (10, 60)}. Of a machine paths:
-        {"frequency": (0.5, 1.5), "stop.wall.gap": (0, 2)}.
-    grid : int
-        Number of points of the grid in each direction, 2 to 400. Parts of the region between its points may be missed.
-    threads : int
-        Number of threads; 0 for one per core.
-    progress : bool or callable
-        True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
-
-    Examples
-    --------
-    >>> from vibroimpact import Oscillator, region
-    >>> osc = Oscillator(inverse_beta=1, gap=0, restitution=0.5)
-    >>> found = region(osc, "1/1", {"inverse_beta": (0.6, 0.9), "gap": (1, 3)}, grid=6)
-    >>> bool(found.stability.contains(0.8, 1.5))
-    True
-    """
-    first, second = plane(over)
-    kind = "parameter" if isinstance(system, Oscillator) else "path"
-    sides = [{kind: name, "from": low, "to": high} for name, low, high in (first, second)]
-    task = {"label": label, "across": sides[0], "up": sides[1], "grid": whole("grid", grid, GRID)}
-    found = ask(system, "region", task, total=2, threads=threads, progress=progress, what="regions")
-    return Region.answering(found, system)
 
 
 def _part(of: Mapping[str, Any]) -> Part:

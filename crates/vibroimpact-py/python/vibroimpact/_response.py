@@ -8,18 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact import _core
-from vibroimpact._ask import System, ask, given
-from vibroimpact._axis import Axis, sweep
-from vibroimpact._progress import Progress
-from vibroimpact._result import Result, View
-from vibroimpact._whole import BUDGET, maybe
+from vibroimpact._result import Rows, View
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
-class ResponseCurve(Result):
+class ResponseCurve(Rows):
     """The motions of a sweep, or the points of a branch from one end to the other.
 
     Attributes
@@ -43,13 +39,11 @@ class ResponseCurve(Result):
     admissible: NDArray[np.bool_]
     quantities: dict[str, NDArray[np.float64]]
 
-    def __len__(self) -> int:
-        return len(self.parameter)
-
     def _table(self) -> dict[str, Any]:
         """One row for each motion."""
-        names = ("parameter", "label", "stable", "stability", "admissible")
-        return {**{name: getattr(self, name) for name in names}, **self.quantities}
+        columns = Rows._table(self)
+        quantities = columns.pop("quantities")
+        return {**columns, **quantities}
 
     def __repr__(self) -> str:
         return f"<ResponseCurve with {len(self)} points: {', '.join(dict.fromkeys(self.label.tolist()))}>"
@@ -80,6 +74,13 @@ class Response(View):
     down: ResponseCurve
     branches: list[ResponseCurve]
     units: dict[str, str]
+
+    def _read(self, answer: _core.Answer) -> dict[str, Any]:
+        found, all_ = super()._read(answer), answer.columns() or {}
+        lists = [of["points"] for of in (*found["sweeps"], *found["branches"])]
+        up, down, *branches = [_curve(points, all_["names"], values) for points, values in zip(lists, all_["curves"])]
+        units = dict(zip(all_["names"], all_["units"]))
+        return {**found, "up": up, "down": down, "branches": branches, "units": units}
 
     def __repr__(self) -> str:
         count = len(self.branches)
@@ -118,62 +119,6 @@ class Response(View):
         """The object that the command prints with --json."""
         found: dict[str, Any] = json.loads(self._whole.json(False))
         return found
-
-
-def response(
-    system: System,
-    vary: str,
-    over: Axis,
-    *,
-    quantity: str | None = None,
-    impacts: int | None = None,
-    progress: Progress = None,
-) -> Response:
-    """Compute the response over a number, such as the frequency.
-
-    A sweep with rising values and one with falling values settle the motion at each value from the state of the motion at
-    the value before. The branch of each cycle that they find is followed through its folds and grazing impacts. Orbits on
-    branches that no sweep meets are not found.
-
-    Parameters
-    ----------
-    system : Oscillator or Machine
-        The system; its value of the number that varies is ignored.
-    vary : str
-        "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution"; for an oscillator
-        from `Oscillator.from_units` also a number of the body, such as "frequency_hz", "force_n", "mass_kg" or "gap_m", over which
-        the quantities are in SI units; of a machine the path of a number.
-    over : str or array
-        Its values: a range ("0.5:1.5:201" has 201 values) or an array.
-    quantity : str
-        The quantity that is drawn; all are computed. `Motion.quantities` has the names. Default: "displacement_amplitude", of a
-        machine that of its first coordinate.
-    impacts : int
-        Budget of impacts for the motion at each value, of a machine of events. Motions that have not settled by then are undecided.
-    progress : bool or callable
-        True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
-
-    Examples
-    --------
-    >>> import vibroimpact as vi
-    >>> osc = vi.Oscillator(inverse_beta=1.3, gap=0.5, restitution=0.5)
-    >>> found = vi.response(osc, "gap", "0.5:1.5:11", quantity="impact_speed_max")
-    >>> found.up.label.tolist()[-1], found.down.label.tolist()[-1], len(found.branches)
-    ('1/1', '2/1', 1)
-    >>> vi.Machine.named("two-mass-hammer").response("frequency", "1.1:1.3:3")
-    <Response of q.frame.displacement_amplitude over frequency: 3 values, 1 branch>
-    """
-    values = sweep(over)
-    count = len(_core.span_values(values)) if isinstance(values, str) else len(values)
-    shown = quantity.replace("-", "_") if quantity is not None else None
-    task = given(vary=vary, over=values, quantity=shown, impacts=maybe("impacts", impacts, BUDGET))
-    answer = ask(system, "response", task, total=2 * count, progress=progress, what="motions")
-    found, all_ = json.loads(answer.json(True)), answer.columns() or {}
-    lists = [*(of["points"] for of in found["sweeps"]), *(of["points"] for of in found["branches"])]
-    up, down, *branches = [_curve(points, all_["names"], values) for points, values in zip(lists, all_["curves"])]
-    units = dict(zip(all_["names"], all_["units"]))
-    of = {"vary": vary, "quantity": found["quantity"], "up": up, "down": down, "branches": branches, "units": units, "plan": found["plan"]}
-    return Response(of, system, answer)
 
 
 def _curve(points: list[dict[str, Any]], names: list[str], values: NDArray[np.float64]) -> ResponseCurve:

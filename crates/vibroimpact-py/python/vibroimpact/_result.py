@@ -5,7 +5,7 @@ import copy
 import html
 import io
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import fields, is_dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
@@ -18,10 +18,10 @@ from vibroimpact._styled import styled
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-    from typing_extensions import Self
 
 N = TypeVar("N", bound=np.generic)
 R = TypeVar("R")
+V = TypeVar("V", bound="View")
 
 #: Size of the picture in inches, and its dots per inch.
 _SIZE, _DOTS = (5.6, 2.6), 80
@@ -99,6 +99,31 @@ class Result:
         self.plot(ax)  # type: ignore[attr-defined]
 
 
+class _Lazy(Generic[R]):
+    """An attribute of a view that is made of its object when it is first used."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, view: Any, owner: object = None) -> R:
+        found = self._value(view)
+        view.__dict__[self._name] = found
+        return found
+
+    def _value(self, view: Any) -> R:
+        raise NotImplementedError
+
+
+class Made(_Lazy[R]):
+    """One that a function makes of the view."""
+
+    def __init__(self, make: Callable[[Any], R]) -> None:
+        self._make = make
+
+    def _value(self, view: Any) -> R:
+        return self._make(view)
+
+
 class View(Result):
     """An object, or a part of one, that the command prints for a system. Its attributes are the fields of the object; those that are
     declared and absent in it are None."""
@@ -111,13 +136,16 @@ class View(Result):
         super().__init_subclass__()
         cls._declared = cls._declared | cls.__annotations__.keys()
 
-    def __init__(self, of: dict[str, Any], system: Any, answer: _core.Answer | None = None) -> None:
-        self._of, self.system, self._answer = of, system, answer
+    def __init__(
+        self, of: dict[str, Any] | None, system: Any, answer: _core.Answer | None = None, start: Any = None
+    ) -> None:
+        self.system, self._answer, self._start = system, answer, start
+        if of is not None:
+            self._of = of
 
-    @classmethod
-    def answering(cls, answer: _core.Answer, system: Any) -> "Self":
-        """The view of a whole answer."""
-        return cls(json.loads(answer.json(True)), system, answer)
+    #: The object, and the rows of its columns.
+    _of: Made[dict[str, Any]] = Made(lambda view: view._read(view._answer))
+    _rows: Made[list[dict[str, Any]]] = Made(lambda view: view._of.get("points", []))
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_") or name not in self._of and name not in self._declared:
@@ -133,18 +161,17 @@ class View(Result):
 
     def __getstate__(self) -> dict[str, Any]:
         # what the compiled module keeps is computed again where it is needed
-        return {**self.__dict__, "_answer": None}
+        return {**self.__dict__, "_of": self._of, "_answer": None, "_start": None}
+
+    def _read(self, answer: _core.Answer) -> dict[str, Any]:
+        """The object of an answer."""
+        found: dict[str, Any] = json.loads(answer.json(True))
+        return found
 
     @property
     def plan(self) -> str:
         """The plan as JSON."""
         return json.dumps(self._of["plan"])
-
-    @property
-    def _rows(self) -> list[dict[str, Any]]:
-        """The rows of its columns."""
-        found: list[dict[str, Any]] = self._of["points"]
-        return found
 
     @property
     def _whole(self) -> _core.Answer:
@@ -185,37 +212,85 @@ class View(Result):
         return styled(lambda ax: paint(figure, ax), ax, legend, title, line)
 
 
-class Column(Generic[N]):
-    """An attribute that is a column: the field of its name of each row of a view; nan where a row lacks it."""
+class Column(_Lazy[NDArray[N]]):
+    """One that is a column: the field of its name, or at a path, of each row of the view; nan where a row lacks it."""
 
-    def __init__(self, kind: type[N]) -> None:
-        self._kind = kind
+    def __init__(self, kind: type[N], field: str | None = None) -> None:
+        self._kind, self._field = kind, field
 
-    def __set_name__(self, owner: type, name: str) -> None:
-        self._name = name
-
-    def __get__(self, view: Any, owner: object = None) -> NDArray[N]:
-        found = np.array([row.get(self._name, np.nan) for row in view._rows], dtype=self._kind)
-        view.__dict__[self._name] = found
-        return found
+    def _value(self, view: Any) -> NDArray[N]:
+        name = self._field or self._name
+        return np.array([row.get(name, np.nan) for row in view._rows], dtype=self._kind)
 
 
-class Field(Generic[R]):
-    """An attribute that is a field of the object of a view, or of an object in it, converted; it is named by its path."""
+class Field(_Lazy[R]):
+    """One that is a field of the object, or of an object in it, converted; it is named by its path."""
 
     def __init__(self, convert: Callable[[Any], R], path: str | None = None) -> None:
         self._convert, self._path = convert, path
 
-    def __set_name__(self, owner: type, name: str) -> None:
-        self._name, self._path = name, self._path or name
-
-    def __get__(self, view: Any, owner: object = None) -> R:
+    def _value(self, view: Any) -> R:
         of: Any = view._of
-        for name in str(self._path).split("."):
+        for name in (self._path or self._name).split("."):
             of = None if of is None else of.get(name)
-        found = self._convert(of)
-        view.__dict__[self._name] = found
-        return found
+        return self._convert(of)
+
+
+class Part(_Lazy[V]):
+    """One that is a view of an object in the object."""
+
+    def __init__(self, kind: "type[V]", path: str | None = None) -> None:
+        self._kind, self._path = kind, path
+
+    def _value(self, view: Any) -> V:
+        return self._kind(view._of[self._path or self._name], view.system)
+
+
+class Parts(_Lazy[list[V]]):
+    """One that is a list of views of the objects in a list."""
+
+    def __init__(self, kind: "type[V]", path: str | None = None) -> None:
+        self._kind, self._path = kind, path
+
+    def _value(self, view: Any) -> list[V]:
+        return [self._kind(of, view.system) for of in view._of[self._path or self._name]]
+
+
+class Rows(Result):
+    """The base of results that are columns of one length: a dataclass, each of whose arrays is one or more columns."""
+
+    __slots__ = ()
+
+    def __len__(self) -> int:
+        return len(getattr(self, fields(self)[0].name))  # type: ignore[arg-type]
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {len(self)}>"
+
+    def _table(self) -> dict[str, Any]:
+        """One row for each row of the columns."""
+        return {of.name: getattr(self, of.name) for of in fields(self) if not of.name.startswith("_")}  # type: ignore[arg-type]
+
+
+class Sequence(View, Generic[V]):
+    """The base of answers that are sequences of views, which are the attribute `_items`."""
+
+    _items: "_Lazy[list[V]]"
+
+    def __iter__(self) -> "Iterator[V]":
+        return iter(self._items)
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+    def __getitem__(self, k: int) -> V:
+        return self._items[k]
+
+
+def pair(of: Iterable[R]) -> tuple[R, R]:
+    """Two values."""
+    one, two = of
+    return one, two
 
 
 def flat(of: dict[str, Any]) -> dict[str, Any]:

@@ -3,7 +3,6 @@
 import copy
 import json
 from collections.abc import Sequence
-from functools import cached_property
 from os import PathLike
 from typing import TYPE_CHECKING, Any, overload
 
@@ -11,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core
-from vibroimpact._ask import Start, System, ask, given
+from vibroimpact._ask import System
 from vibroimpact._attractors import Attractors
 from vibroimpact._axis import numbers
 from vibroimpact._machine import Machine
@@ -19,6 +18,7 @@ from vibroimpact._motion import Motion, all_measured
 from vibroimpact._oscillator import Oscillator
 from vibroimpact._over import Points
 from vibroimpact._progress import Progress, watched
+from vibroimpact._result import Made
 from vibroimpact._sample import Sample
 from vibroimpact._whole import BUDGET, maybe, threads_of
 
@@ -47,91 +47,25 @@ class Settled(Motion):
         The plan as JSON.
     """
 
-    def __init__(self, of: dict[str, Any], system: Any, answer: _core.Answer | None = None) -> None:
-        super().__init__(of["motion"], system, answer)
-        self._object = of
-
-    @property
-    def plan(self) -> str:
-        """The plan as JSON."""
-        return json.dumps(self._object["plan"])
-
-    @property
-    def motion(self) -> Motion:
-        """The motion alone."""
-        return Motion(self._of, self.system)
-
-    @property
-    def events_followed(self) -> int:
-        """The number of events that were followed."""
-        return int(self._object["events_followed"])
-
-    @property
-    def time_followed(self) -> float:
-        """The time that was followed."""
-        return float(self._object["time_followed"])
-
-    @property
-    def chaotic_transient(self) -> dict[str, Any] | None:
-        """Chaos before the motion settled."""
-        found = self._object.get("chaotic_transient")
-        return None if found is None else {**found, "exponents": all_measured(found["exponents"])}
-
-    @cached_property
-    def _complete(self) -> dict[str, Any]:
-        """The object that the command prints with --json, computed once: its harmonics and transient take another settling."""
-        found: dict[str, Any] = json.loads(self._whole.json(False))
-        return found
-
-    @property
-    def harmonics(self) -> list[dict[str, float]]:
-        """The spectrum of the position."""
-        return list(self._complete.get("harmonics", ()))
-
-    @property
-    def transient(self) -> dict[str, Any] | None:
-        """The way until the motion had settled."""
-        found: dict[str, Any] | None = self.to_dict().get("transient")
-        return found
+    _object: Made[dict[str, Any]] = Made(lambda of: of._read(of._answer))
+    _of: Made[dict[str, Any]] = Made(lambda of: of._object["motion"])
+    plan: Made[str] = Made(lambda of: json.dumps(of._object["plan"]))
+    motion: Made[Motion] = Made(lambda of: Motion(of._of, of.system))
+    events_followed: Made[int] = Made(lambda of: of._object["events_followed"])
+    time_followed: Made[float] = Made(lambda of: of._object["time_followed"])
+    chaotic_transient: Made[dict[str, Any] | None] = Made(lambda of: _chaos(of._object.get("chaotic_transient")))
+    harmonics: Made[list[dict[str, float]]] = Made(lambda of: of._complete.get("harmonics", []))
+    transient: Made[dict[str, Any] | None] = Made(lambda of: of._complete.get("transient"))
+    # the object that the command prints: its harmonics and transient take another settling
+    _complete: Made[dict[str, Any]] = Made(lambda of: json.loads(of._whole.json(False)))
 
     def to_dict(self) -> dict[str, Any]:
         """The object that the command prints with --json."""
         return copy.deepcopy(self._complete)
 
 
-def settle(
-    system: System, *, x: float | None = None, v: float | None = None, q: ArrayLike | None = None,
-    qdot: ArrayLike | None = None, phase: float | None = None, impacts: int | None = None, progress: Progress = None,
-) -> Settled:
-    """Follow the motion from a start until it has settled, and confirm the result: a cycle, chaos, no further impact, or rest on
-    a stop.
-
-    Parameters
-    ----------
-    system : Oscillator or Machine
-        The system.
-    x, v, phase : float
-        Start of an oscillator: position in units of F/k (default: at rest, or on the stop), velocity, phase of the force in radians.
-    q, qdot, phase : array, array, float
-        Start of a machine: coordinates, velocities and phase. Default: those of its `start`, or 0.
-    impacts : int
-        Budget of impacts, of a machine of events, 1 to 1 000 000. A motion that has not settled by then is undecided. Default: 20 000.
-    progress : bool or callable
-        True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
-
-    Examples
-    --------
-    >>> import vibroimpact as vi
-    >>> osc = vi.Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5)
-    >>> vi.settle(osc), vi.settle(osc, x=-2)
-    (<Settled 2/1, stable>, <Settled 1/1, stable>)
-    >>> found = vi.Machine.named("two-mass-hammer").settle()
-    >>> found, found.counts, len(found.multipliers)
-    (<Settled 1/1, stable>, {'anvil': 1}, 4)
-    """
-    start = Start(system, x, v, q, qdot, phase)
-    task = start.within(given(impacts=maybe("impacts", impacts, BUDGET)))
-    return Settled.answering(ask(system, "settle", task, start, progress=progress), system)
+def _chaos(of: dict[str, Any] | None) -> dict[str, Any] | None:
+    return None if of is None else {**of, "exponents": all_measured(of["exponents"])}
 
 
 class Settlement(Attractors):
@@ -145,6 +79,8 @@ class Settlement(Attractors):
         The motions.
     cells : ndarray of uint32
         The motion of each start as an index into `motions`, in the shape of the starts.
+    labels : ndarray of str
+        The label of the motion of each start, in the shape of the starts.
     """
 
     cells: NDArray[np.uint32]
@@ -160,16 +96,12 @@ class Settlement(Attractors):
         found: dict[str, Any] = json.loads(_core.shares_figure(self.system._file, [(motion.label, motion.share) for motion in self]))
         return found
 
-    @property
-    def labels(self) -> NDArray[np.str_]:
-        """The label of the motion of each start, in the shape of the starts."""
-        names = np.array([motion.label for motion in self], dtype=np.str_)
-        return names[self.cells]
+    labels: Made[NDArray[np.str_]] = Made(lambda of: np.array([motion.label for motion in of], dtype=np.str_)[of.cells])
 
 
 @overload
 def settle_many(
-    systems: Oscillator,
+    system: Oscillator,
     x: ArrayLike,
     v: ArrayLike = 0.0,
     phase: ArrayLike = 0.0,
@@ -181,7 +113,7 @@ def settle_many(
 
 @overload
 def settle_many(
-    systems: "System | Points",
+    system: "System | Points",
     *,
     over: "Points | None" = None,
     starts: "Points | None" = None,
@@ -197,7 +129,7 @@ def settle_many(
 
 
 def settle_many(
-    systems: "System | Points",
+    system: "System | Points",
     x: ArrayLike | None = None,
     v: ArrayLike = 0.0,
     phase: ArrayLike = 0.0,
@@ -221,7 +153,7 @@ def settle_many(
 
     Parameters
     ----------
-    systems : Oscillator, Machine, mapping, DataFrame or Dataset
+    system : Oscillator, Machine, mapping, DataFrame or Dataset
         The system, or values of "inverse_beta" or "beta", "gap", "restitution", "damping", "second_gap",
         "second_restitution"; of "x", "v" and "phase" too.
     x, v, phase : array_like
@@ -275,25 +207,25 @@ def settle_many(
     if x is None:
         if any(np.ndim(of) > 0 or of != 0.0 for of in (v, phase)):
             raise TypeError('velocities and phases without positions are written starts={"v": ..., "phase": ...}')
-        if store is None and client is None and tile is None and not isinstance(systems, Machine):
+        if store is None and client is None and tile is None and not isinstance(system, Machine):
             budget = maybe("impacts", impacts, BUDGET)
-            return _of_points((systems, over, starts), (budget, fields, transient), threads, progress)
+            return _of_points((system, over, starts), (budget, fields, transient), threads, progress)
         from vibroimpact import _grid, _many, _over
         from vibroimpact._plan import Plan
 
         plan = Plan.samples(
-            systems, over=over, starts=starts, fields=fields, transient=transient, impacts=impacts, tile=tile
+            system, over=over, starts=starts, fields=fields, transient=transient, impacts=impacts, tile=tile
         )
-        units = systems.units if isinstance(systems, Oscillator) else None
+        units = system.units if isinstance(system, Oscillator) else None
         ds = _many.with_whole_numbers(_grid.computed(plan, units, store, client, threads, progress))
-        if not isinstance(systems, Machine) or store is not None or any(isinstance(of, Sample) for of in (over, starts)):
+        if not isinstance(system, Machine) or store is not None or any(isinstance(of, Sample) for of in (over, starts)):
             return ds
-        return _many.in_shape(ds, _over.machine_points(systems, over, starts))
+        return _many.in_shape(ds, _over.machine_points(system, over, starts))
     if over is not None or starts is not None or len(fields) or transient or impacts is not None or store is not None:
         raise TypeError("x as the second argument has no over, starts, fields, transient, impacts and store: write starts={\"x\": ...}")
-    if not isinstance(systems, Oscillator):
+    if not isinstance(system, Oscillator):
         raise TypeError("x as the second argument is for one Oscillator: write starts={\"x\": ...}")
-    return _of_starts(systems, (x, v, phase), threads, progress)
+    return _of_starts(system, (x, v, phase), threads, progress)
 
 
 def _of_points(
@@ -304,7 +236,7 @@ def _of_points(
 ) -> "xr.Dataset":
     """The motions at points of systems and starts."""
     from vibroimpact import _many, _over
-    from vibroimpact._plan import names
+    from vibroimpact._axis import names
     from vibroimpact._unit_names import attributes_of
 
     over = _over.points(*asked)

@@ -4,16 +4,13 @@ import json
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from vibroimpact import _core
-from vibroimpact._ask import Start, System, ask, given
 from vibroimpact._events import columns_of, named_columns, names_of
 from vibroimpact._oscillator import Oscillator
-from vibroimpact._progress import Progress
 from vibroimpact._result import View
 from vibroimpact._waveform import Waveform, waveform
-from vibroimpact._whole import SIMULATED, maybe
 
 _Floats = NDArray[np.float64]
 
@@ -78,6 +75,13 @@ class Simulation(View):
     horizon: dict[str, Any] | None
     shown_until: float
 
+    def _read(self, answer: _core.Answer) -> dict[str, Any]:
+        found = answer.columns() or {}
+        found |= columns_of(found.pop("events"), len(names_of(self.system)[0]))
+        horizon, with_ = found["horizon"], tuple(map(tuple, found["with_"]))
+        of = {"horizon": horizon and json.loads(horizon), "with_": with_, "plan": json.loads(answer.plan)}
+        return {**found, **of, "start": self._start.given}
+
     def __repr__(self) -> str:
         return f"<Simulation of {len(self)} events, ends with {self.end} at time {self.end_time:.6g}>"
 
@@ -128,61 +132,3 @@ class Simulation(View):
         if isinstance(self.system, Oscillator):
             return columns | {"depth": self.depth, "chatter": self.chatter, "error": self.error}
         return columns | {"with": [", ".join(names) for names in self.with_], "tie": self.tie}
-
-
-def simulate(
-    system: System,
-    *,
-    x: float | None = None,
-    v: float | None = None,
-    q: ArrayLike | None = None,
-    qdot: ArrayLike | None = None,
-    phase: float | None = None,
-    impacts: int | None = None,
-    periods: float | None = None,
-    progress: Progress = None,
-) -> Simulation:
-    """Follow a motion event by event: impacts, grazing contacts, sticking and release, contact and slip.
-
-    Parameters
-    ----------
-    system : Oscillator or Machine
-        The system.
-    x, v, phase : float
-        Start of an oscillator: position in units of F/k, not beyond a stop (default: at rest, or on the stop), velocity, phase of the
-        force in radians.
-    q, qdot, phase : array, array, float
-        Start of a machine: coordinates, velocities and phase. Default: those of its `start`, or 0.
-    impacts : int
-        Stop after this number of impacts, of a machine of events, 1 to 1e7. Default: 100, or 1e6 with `periods`.
-    periods : float
-        Stop after this number of forcing periods, up to 1e9.
-    progress : bool or callable
-        True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.
-
-    Examples
-    --------
-    >>> import vibroimpact as vi
-    >>> sim = vi.simulate(vi.Oscillator(inverse_beta=1.8, gap=0.25, restitution=0.5), impacts=20)
-    >>> sim.kind[:3].tolist(), sim.time[:3].round(4).tolist()
-    (['impact', 'impact', 'impact'], [1.4598, 2.2409, 2.6025])
-    >>> wave = sim.waveform()
-    >>> bool(wave.q.max() <= 0.25 + 1e-12)
-    True
-    >>> motion = vi.Machine.named("sdnd101").simulate(impacts=2)
-    >>> motion.kind.tolist(), motion.time.round(6).tolist()
-    (['close', 'open'], [0.0, 0.03126])
-    >>> wave = motion.waveform(1e-4)
-    >>> float(wave.force[:, 0].max().round())          # 9950.37 N in closed form
-    9950.0
-    """
-    limit = maybe("impacts", impacts, SIMULATED)
-    start = Start(system, x, v, q, qdot, phase)
-    task = start.within(given(impacts=limit, periods=periods))
-    total = limit or (1 if periods is not None else 100)
-    answer = ask(system, "simulate", task, start, total=total, progress=progress, what="events")
-    found, n = answer.columns() or {}, len(names_of(system)[0])
-    found |= columns_of(found.pop("events"), n)
-    horizon, with_ = found["horizon"], tuple(tuple(names) for names in found["with_"])
-    of = {"start": start.of_machine or (x, v or 0.0, phase or 0.0), "horizon": horizon and json.loads(horizon), "with_": with_}
-    return Simulation({**found, **of, "plan": json.loads(answer.plan)}, system, answer)

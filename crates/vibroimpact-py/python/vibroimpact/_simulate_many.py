@@ -1,6 +1,7 @@
 """Simulation of many motions: their events, and their states at given times, at one phase and at one position."""
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,7 +25,7 @@ _KINDS = {"impact": 0, "graze": 1, "stick": 2, "release": 3}
 
 
 def simulate_many(
-    systems: "System | Points",
+    system: "System | Points",
     *,
     over: "Points | None" = None,
     starts: "Points | None" = None,
@@ -32,18 +33,18 @@ def simulate_many(
     periods: float | None = None,
     at: ArrayLike | None = None,
     phase: float | None = None,
-    position: float | None = None,
+    position: float | Mapping[str, float] | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> "xr.Dataset":
     """Follow many motions: their events, or their states where `at`, `phase` or `position` asks for them.
 
-    Systems and starts are given as for `settle_many`; of machines there are events. Rows of different lengths are filled up with nan. The result does not
-    depend on the number of threads.
+    Systems and starts are given as for `settle_many`. Rows of different lengths are filled up with nan. The result does not depend on
+    the number of threads.
 
     Parameters
     ----------
-    systems : Oscillator, Machine, mapping, DataFrame or Dataset
+    system : Oscillator, Machine, mapping, DataFrame or Dataset
         The system, or values of its parameters.
     over : mapping, DataFrame or Dataset
         Values of parameters instead of those of an oscillator; of the numbers of a machine by path.
@@ -59,8 +60,9 @@ def simulate_many(
         the state is that after it; while the last impacts of a chatter are summed, that of rest.
     phase : float
         A phase of the force, radians: the states at this phase, once in every period.
-    position : float
-        A position between the stops: the states where the motion crosses it, upwards where `v` is positive.
+    position : float, or mapping
+        A position between the stops: the states where the motion crosses it, upwards where the velocity is positive. Of a machine of
+        several coordinates that of one of them: {"q.head": 0.1}.
     threads : int
         Number of threads; 0 for one per core.
     progress : bool or callable
@@ -74,7 +76,7 @@ def simulate_many(
         Of a machine: `time`, `kind`, `event_phase`, `stop` (codes), `speed`, and coordinates and velocities after the event
         by their paths.
         Of states: `time`, `position`, `velocity` and `force_phase`, with the dimension `time` for `at`, and `state`
-        otherwise.
+        otherwise; of a machine coordinates and velocities by their paths.
 
     Examples
     --------
@@ -87,6 +89,14 @@ def simulate_many(
     >>> states = simulate_many(osc, starts={"x": [-1.0, 0.0]}, at=[0.0, 1.0])
     >>> states["position"].values[:, 0].tolist()
     [-1.0, 0.0]
+    >>> import vibroimpact as vi
+    >>> hammer = vi.Machine.named("two-mass-hammer")
+    >>> strobes = hammer.simulate_many(over={"frequency": [1.1, 1.2]}, phase=0, periods=300).isel(state=-1)
+    >>> strobes["q.head"].values.round(4).tolist()
+    [-1.3879, -1.2446]
+    >>> crossings = hammer.simulate_many(position={"q.head": 0.1}, periods=20)
+    >>> crossings["q.head"].values[:3].round(12).tolist(), crossings["time"].values[:3].round(4).tolist()
+    ([0.1, 0.1, 0.1], [1.3999, 4.1468, 7.6413])
     """
     given = [name for name, of in (("at", at), ("phase", phase), ("position", position)) if of is not None]
     if len(given) > 1:
@@ -96,29 +106,44 @@ def simulate_many(
     if given and impacts is not None:
         raise QuestionError(f"impacts has no meaning with {given[0]}\nhint: periods limits the time")
     limit, threads = None if impacts is None else whole("impacts", impacts, SIMULATED, here=True), threads_of(threads)
-    if isinstance(systems, Machine):
-        if given:
-            raise QuestionError(f"{given[0]} is for oscillators\nhint: simulate(...).waveform() has the states of a machine")
-        of_machine = _over.machine_points(systems, over, starts)
+    if at is not None and periods is not None:
+        raise QuestionError("periods has no meaning with at\nhint: the last time limits the time")
+    times = None if at is None else _times(at)
+    turns = 100.0 if periods is None else float(periods)
+    if phase is not None and turns < 1:
+        raise QuestionError(f"periods = {periods} is less than one period, so there may be no state at the phase")
+    strobes = None if phase is None else (_finite("phase", phase), math.floor(turns))
+    if isinstance(system, Machine):
+        of_machine = _over.machine_points(system, over, starts)
+        crossing = None if position is None else (*_place(system, position), turns)
+        section = times.tolist() if times is not None else strobes or crossing
         with watched(progress, "motions") as tell:
-            return _events_of_machines(of_machine, _core.simulate_machines(*_asked(of_machine), (limit, periods), threads, tell))
-    points = _over.points(systems, over, starts)
+            if section is None:
+                return _events_of_machines(of_machine, _core.simulate_machines(*_asked(of_machine), (limit, periods), threads, tell))
+            return _states_of_machines(of_machine, times, _core.states_of_machines(*_asked(of_machine), section, threads, tell))
+    points = _over.points(system, over, starts)
     with watched(progress, "motions") as tell:
         common = (points.osc._file, points.columns, points.start)
-        if at is not None:
-            if periods is not None:
-                raise QuestionError("periods has no meaning with at\nhint: the last time limits the time")
-            times = _times(at)
+        if times is not None:
             return _at_times(points, times, _core.states_of_points(*common, times.tolist(), threads, tell))
-        turns = 100.0 if periods is None else float(periods)
-        if phase is not None:
-            wanted, count = _finite("phase", phase), math.floor(turns)
-            if count < 1:
-                raise QuestionError(f"periods = {periods} is less than one period, so there may be no state at the phase")
-            return _states(points, _core.strobes_of_points(*common, wanted, count, threads, tell))
+        if strobes is not None:
+            return _states(points, _core.strobes_of_points(*common, *strobes, threads, tell))
         if position is not None:
-            return _states(points, _core.crossings_of_points(*common, _finite("position", position), turns, threads, tell))
+            return _states(points, _core.crossings_of_points(*common, _place(points.osc, position)[1], turns, threads, tell))
         return _events(points, _core.simulate_points(*common, (limit, periods), threads, tell))
+
+
+def _place(system: System, position: float | Mapping[str, float]) -> tuple[str, float]:
+    """The coordinate of a position, and its value."""
+    names = names_of(system)[0]
+    if not isinstance(position, Mapping):
+        if len(names) > 1:
+            raise QuestionError(f'position = {position} of which coordinate?\nhint: position={{"{names[0]}": {position}}}')
+        position = {names[0]: position}
+    if len(position) != 1 or not set(position) <= set(names):
+        raise QuestionError(f"position is that of one coordinate; there are {', '.join(names)}")
+    ((name, value),) = position.items()
+    return name.removeprefix("q."), _finite("position", value)
 
 
 def _finite(name: str, value: float) -> float:
@@ -201,10 +226,6 @@ def _asked(points: MachineOver) -> tuple[_core.MachineFile, list[tuple[str, list
 
 def _events_of_machines(points: MachineOver, found: dict[str, Any]) -> "xr.Dataset":
     """The Dataset of the events of motions of machines."""
-    import xarray as xr
-
-    from vibroimpact import _accessor  # registers ds.vibro
-
     event, machine = ("event", found["width"]), points.machine
     events, stops = found["events"], machine.stops + machine.joints
     names, kinds, ends = ({name: code for code, name in enumerate(of)} for of in (stops, events["kinds"], found["ends"]))
@@ -221,10 +242,35 @@ def _events_of_machines(points: MachineOver, found: dict[str, Any]) -> "xr.Datas
     }
     paths = [path for of in names_of(machine) for path in of]
     variables |= {path: _variable(points, values, event, f"{path} after the event", "", "") for path, values in zip(paths, states)}
+    return _dataset_of_machines(points, variables, "events of motions")
+
+
+def _states_of_machines(
+    points: MachineOver, times: NDArray[np.float64] | None, found: tuple[int, list[NDArray[np.float64]]]
+) -> "xr.Dataset":
+    """The Dataset of the states of machines: at given times, or of a section."""
+    from vibroimpact._unit_names import described
+
+    width, (time, phase, *states) = found
+    further = ("state" if times is None else "time", width)
+    of_time = {} if times is not None else {"time": _variable(points, time, further, "time since the start", "", "")}
+    variables = {**of_time, "force_phase": _variable(points, phase, further, "phase of the forcing", "", "rad")}
+    paths = [path for of in names_of(points.machine) for path in of]
+    variables |= {path: _variable(points, values, further, path, "", "") for path, values in zip(paths, states)}
+    ds = _dataset_of_machines(points, variables, "states of motions" if times is not None else "sections of motions")
+    whole: xr.Dataset = ds if times is None else ds.assign_coords(time=("time", times, described("time since the start", "", "")))
+    return whole
+
+
+def _dataset_of_machines(points: MachineOver, variables: dict[str, Any], title: str) -> "xr.Dataset":
+    import xarray as xr
+
+    from vibroimpact import _accessor  # registers ds.vibro
+
     # what varies has the name of a variable: it is that of the start
     starts = {name: f"start.{name}" for name in points.coords if name in variables}
     coords = {starts.get(name, name): of for name, of in points.coords.items()}
-    attributes = {"title": f"events of motions: {machine.title or 'a machine'}", "source": f"vibroimpact {_core.__version__}"}
+    attributes = {"title": f"{title}: {points.machine.title or 'a machine'}", "source": f"vibroimpact {_core.__version__}"}
     return xr.Dataset(variables, coords, attributes)
 
 

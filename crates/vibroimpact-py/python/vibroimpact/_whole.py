@@ -53,6 +53,22 @@ ROUNDS = Range(0, 20)
 #: Values of a range.
 SPAN = Range(1)
 
+#: The ranges of the whole numbers of tasks by name, and of those that are other ones in some tasks.
+_RANGES = {
+    "impacts": BUDGET, "starts": STARTS, "seed": SEED, "points": BRANCH, "orbit": NUMBER, "event": NUMBER, "follow": FOLLOW, "grid": GRID,
+    "lines": LINES, "refine": REFINE, "transient": TRANSIENT, "keep": KEEP,
+}
+_OF_TASKS = {
+    "simulate": {"impacts": SIMULATED}, "lyapunov": {"impacts": MEASURED, "points": SECTION}, "map": {"starts": POINT_STARTS},
+}
+
+
+def ranges(task: str, oscillator: bool) -> dict[str, Range]:
+    """The ranges of the whole numbers of a task."""
+    own = _OF_TASKS.get(task, {})
+    return _RANGES | (own if oscillator or task != "lyapunov" else own | {"impacts": SIMULATED})
+
+
 #: The largest number of 32 bits, the size of most counts in a plan.
 _SMALL = 2**32 - 1
 

@@ -14,6 +14,7 @@ use super::response::ResponseAnswer;
 use super::settle::SettleAnswer;
 use super::simulate::SimulateAnswer;
 use super::{Document, JsonSchema};
+use crate::ContactAnswer;
 use schemars::generate::SchemaSettings;
 use serde_json::Value;
 
@@ -21,7 +22,7 @@ use serde_json::Value;
 type Maker = fn() -> Value;
 
 /// The commands whose answers have a schema, with its maker.
-const SCHEMAS: [(&str, Maker); 14] = [
+const SCHEMAS: [(&str, Maker); 15] = [
     ("simulate", of::<SimulateAnswer<'static>>),
     ("settle", of::<SettleAnswer<'static>>),
     ("attractors", of::<AttractorsAnswer<'static>>),
@@ -36,15 +37,16 @@ const SCHEMAS: [(&str, Maker); 14] = [
     ("map", of::<MapAnswer>),
     ("basin", of::<BasinAnswer<'static>>),
     ("settle-many", of::<MapAnswer>),
+    ("contact", root::<ContactAnswer>),
 ];
 
 fn of<T: JsonSchema>() -> Value {
+    root::<Document<'static, T, ()>>()
+}
+
+fn root<T: JsonSchema>() -> Value {
     // of what is written: fields that are left out where they say nothing are not required
-    SchemaSettings::draft2020_12()
-        .for_serialize()
-        .into_generator()
-        .into_root_schema_for::<Document<'static, T, ()>>()
-        .to_value()
+    SchemaSettings::draft2020_12().for_serialize().into_generator().into_root_schema_for::<T>().to_value()
 }
 
 /// The names of these commands.

@@ -179,6 +179,8 @@ pub(super) fn plain_crossing(
         let (value, slope) = value_and_slope(c, part);
         (*moved, *v) = (value, slope * over);
     }
+    modes.error.clear();
+    flight.gain(modes);
     flight.turn(s, modes);
     Some((s, guard))
 }

@@ -87,7 +87,9 @@ pub(crate) struct Modes {
     /// Displacements since the beginning, and velocities.
     pub(super) moved: Vec<f64>,
     pub(super) v: Vec<f64>,
-    /// Bounds of the rounding errors of the displacements, and of the velocities.
+    /// The velocities gained since the beginning, of modes that are not plain: gaps have parts of them, which are as small as the gaps.
+    pub(super) gained: Vec<f64>,
+    /// Bounds of the rounding errors of the displacements, and of the velocities; empty if they are not known.
     pub(super) error: Vec<(f64, f64)>,
     pub(super) turned: Vec<Turned>,
     pub(super) s: f64,
@@ -241,6 +243,12 @@ impl MachineFlight {
         (self.guards[guard].value, self.guards[guard].size)
     }
 
+    /// Whether the flight begins on this guard, or with a value of it that has more digits than the coordinates.
+    pub(crate) fn begins_exactly(&self, guard: usize) -> bool {
+        let start = &self.guards[guard];
+        start.known > 0 || start.size <= start.value.abs()
+    }
+
     /// The amplitudes of the harmonics of a guard, turned to the phase of the beginning.
     pub(super) fn harmonics(&self, guard: usize) -> &[(f64, f64)] {
         let count = self.drive.rates.len();
@@ -284,11 +292,13 @@ impl MachineFlight {
         modes.turned.extend(self.structure.rates.iter().map(|rate| Turned::of(rate * s)));
         modes.moved.clear();
         modes.v.clear();
+        modes.gained.clear();
         modes.error.clear();
         if let Some(dense) = self.dense() {
             let (moved, v, error) = dense.at(&self.v, s, &mut modes.steps);
             modes.error.extend(self.structure.modes.iter().map(|mode| (error, error * mode.rate.max(1e-300))));
             (modes.moved, modes.v) = (moved, v);
+            self.gain(modes);
             return;
         }
         // the series gives the same here; this only saves its work
@@ -296,13 +306,14 @@ impl MachineFlight {
             modes.moved.resize(self.v.len(), 0.0);
             modes.error.resize(self.v.len(), (0.0, 0.0));
             modes.v.extend_from_slice(&self.v);
+            self.gain(modes);
             return;
         }
         // the orders of the harmonics are sorted: the last is the fastest, and the series must resolve it too
         let fastest = self.structure.rates.last().copied().unwrap_or(0.0);
         for (i, mode) in self.structure.modes.iter().enumerate() {
             let turn = s * mode.rate.max(fastest);
-            let (moved, v, error) = if turn < SHORT_REACH {
+            let (moved, gained, v, error) = if turn < SHORT_REACH {
                 // the last term is below rounding
                 let terms = if turn < 1e-3 {
                     6
@@ -315,11 +326,23 @@ impl MachineFlight {
             } else if turn < LONG_REACH && self.slow(i) {
                 self.by_series(i, s, LONG_TERMS)
             } else {
-                self.by_response(i, mode, s, &modes.turned)
+                let (moved, v, error) = self.by_response(i, mode, s, &modes.turned);
+                (moved, v - self.v[i], v, error)
             };
             modes.moved.push(moved);
             modes.v.push(v);
+            if !self.structure.plain {
+                modes.gained.push(gained);
+            }
             modes.error.push(error);
+        }
+    }
+
+    /// What the velocities of the modes have gained, by their difference.
+    pub(super) fn gain(&self, modes: &mut Modes) {
+        modes.gained.clear();
+        if !self.structure.plain {
+            modes.gained.extend(modes.v.iter().zip(&self.v).map(|(now, before)| now - before));
         }
     }
 
@@ -372,21 +395,24 @@ impl MachineFlight {
         (moved, rate, (error, of_rate))
     }
 
-    fn by_series(&self, i: usize, s: f64, terms: usize) -> (f64, f64, (f64, f64)) {
+    fn by_series(&self, i: usize, s: f64, terms: usize) -> (f64, f64, f64, (f64, f64)) {
         let mut c = [0.0; LONG_TERMS + 2];
         self.coefficients(i, 0.0, self.v[i], 0.0, self.drive.of(i), &mut c[..terms + 2]);
         let (mut y, mut v, mut size) = (0.0, 0.0, 0.0);
         let mut real = f64::from(u32::try_from(terms + 1).unwrap_or(0));
         // Horner's scheme from the highest power down; the power 0 is left out, because displacements begin at zero,
         // and one factor `s` comes at the end
-        for k in (1..terms + 2).rev() {
+        for k in (2..terms + 2).rev() {
             y = y * s + c[k];
             size = size * s + c[k].abs();
             v = v * s + real * c[k];
             real -= 1.0;
         }
+        // what is gained, before the first velocity takes its digits
+        let gained = v * s;
+        (y, v, size) = (y * s + c[1], gained + c[1], size * s + c[1].abs());
         let error = HALF_ULP * 4.0 * size * s;
-        (y * s, v, (error, error * self.structure.modes[i].rate.max(1e-300)))
+        (y * s, gained, v, (error, error * self.structure.modes[i].rate.max(1e-300)))
     }
 
     /// The Taylor coefficients $`y^{(k)}/k!`$ of a mode at a state a time `s` after the beginning; `harmonics` are turned to
@@ -432,6 +458,9 @@ impl MachineFlight {
             let a = push - 2.0 * mode.d * modes.v[i] - mode.k * modes.moved[i];
             modes.moved[i] += (modes.v[i] + 0.5 * a * s) * s;
             modes.v[i] += a * s;
+            if let Some(gained) = modes.gained.get_mut(i) {
+                *gained += a * s;
+            }
         }
         for (turned, w) in modes.turned.iter_mut().zip(&self.drive.rates) {
             // near the beginning the versine is small and needs its second order; for sine and cosine that is below
@@ -460,9 +489,12 @@ impl MachineFlight {
                 error += moved.abs() + (a * modes.error[i].0).abs() * (1.0 / HALF_ULP);
             }
             if b != 0.0 {
-                value += b * (modes.v[i] - self.v[i]);
+                let known = modes.gained.get(i);
+                let gained = known.map_or_else(|| modes.v[i] - self.v[i], |gained| *gained);
+                value += b * gained;
                 rate += b * self.acceleration(i, self.push(i, modes), &modes.moved, &modes.v);
-                error += b.abs() * (modes.v[i].abs() + self.v[i].abs() + modes.error[i].1 / HALF_ULP);
+                let size = known.map_or_else(|| modes.v[i].abs() + self.v[i].abs(), |gained| gained.abs());
+                error += b.abs() * (size + modes.error[i].1 / HALF_ULP);
             }
         }
         // a cosine has moved by minus its versine: the difference of two cosines would lose digits over short times
@@ -696,7 +728,8 @@ impl MachineFlight {
             moved += b * turned.sin - a * turned.versine;
         }
         for i in 0..modes.moved.len() {
-            moved += of.position[i] * modes.moved[i] + of.velocity[i] * (modes.v[i] - self.v[i]);
+            let gained = modes.gained.get(i).map_or_else(|| modes.v[i] - self.v[i], |gained| *gained);
+            moved += of.position[i] * modes.moved[i] + of.velocity[i] * gained;
         }
         moved
     }

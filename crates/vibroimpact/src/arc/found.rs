@@ -71,4 +71,12 @@ impl Buffers {
         }
         &self.modes
     }
+
+    /// The modes at this time, at which they are already, with bounds of their errors.
+    pub(crate) fn modes_with_errors(&mut self, flight: &MachineFlight, s: f64) -> &Modes {
+        if self.modes.error.len() != self.modes.moved.len() {
+            flight.at(s, &mut self.modes);
+        }
+        &self.modes
+    }
 }

@@ -120,10 +120,15 @@ impl Motion<'_> {
         self.move_to(flight, s);
         self.crowd += 1;
         self.instants.pass(s);
-        self.instants.land(&self.place.x, &self.place.v);
+        let exact = guards.iter().all(|g| flight.begins_exactly(*g));
+        self.instants.land(&self.place.x, &self.place.v, exact);
         if self.crowd > CROWD {
             self.end = Some(End::Collapse);
             return;
+        }
+        if self.instants.are_close() {
+            let modes = self.buffers.modes_with_errors(flight, s);
+            self.place.keep_gaps(&self.normal, flight, (modes, guards));
         }
         if let Some(passage) = &mut self.passage {
             passage.guards = guards.to_vec();
@@ -147,6 +152,7 @@ impl Motion<'_> {
             if self.place.states[j] != ContactState::Open
                 || self.place.surfaces[j].is_some()
                 || self.place.known.iter().any(|(known, _)| *known == kind)
+                || self.place.sharp_gap(j).is_some()
             {
                 continue;
             }

@@ -83,6 +83,7 @@ impl Motion<'_> {
         let (mut size, mut rate_size) = (0.0_f64, 0.0_f64);
         for j in round.places.iter().filter(|at| **at < stops) {
             let (_, _, of_gap, of_rate) = self.place.gap(&self.normal, &turns, *j);
+            let of_gap = if round.exact { 0.0 } else { of_gap };
             (size, rate_size) = (size.max(of_gap), rate_size.max(of_rate));
         }
         // how long a rounding error of a gap is, at the speed of the round
@@ -122,6 +123,13 @@ impl Motion<'_> {
         })
     }
 
+    /// A gap without the rounding errors of the coordinates: of a stop that has just been struck, which is exactly closed, or one that
+    /// has been kept.
+    fn exact_gap(&self, j: usize) -> Option<f64> {
+        let struck = self.place.known.iter().any(|(kind, _)| *kind == GuardKind::Gap(j));
+        if struck { Some(0.0) } else { self.place.sharp_gap(j) }
+    }
+
     /// The time after which impacts on these stops have accumulated, one after another, if they do so soon. Their gaps are
     /// followed by themselves under the accelerations here: so they have all digits, however small they become.
     fn collapse_time(&mut self, stops: &[usize]) -> Option<f64> {
@@ -135,10 +143,9 @@ impl Motion<'_> {
         let gaps = stops.iter().map(|j| {
             let StopLaw::Rigid { restitution } = self.machine.stops()[*j].law else { return None };
             let (gap, rate) = self.place.gap_and_rate(&self.normal, &turns, *j);
-            // a stop that has just been struck is exactly closed
-            let struck = self.place.known.iter().any(|(kind, _)| *kind == GuardKind::Gap(*j));
+            let gap = self.exact_gap(*j).unwrap_or(gap).max(0.0);
             let acceleration = flight.first(&free.gap(&self.normal, *j).1).1;
-            Some(FreeGap { gap: if struck { 0.0 } else { gap.max(0.0) }, rate, acceleration, restitution })
+            Some(FreeGap { gap, rate, acceleration, restitution })
         });
         let mut gaps: Vec<FreeGap> = gaps.collect::<Option<_>>()?;
         let limit = if free.fastest() > 0.0 { SOON / free.fastest() } else { f64::INFINITY };
@@ -215,6 +222,8 @@ impl Motion<'_> {
         }
         self.instants.silence(&mut there.x, &mut there.v, 1);
         there.known.retain(|(kind, _)| !places.contains(&kind.place(stops)));
+        // they were those before the coordinates have moved
+        there.gaps.retain(|(j, _)| there.states[*j] == ContactState::Closed);
         candidates.extend(places);
         candidates.sort_unstable();
         candidates.dedup();

@@ -8,6 +8,9 @@
 //!
 //! Some accumulate without a round that repeats itself, as those of a column of bodies. Then all that can be said is which
 //! stops are struck again and again, ever more slowly.
+//!
+//! Changes at one time are one instant, and what is long or often enough is counted in instants: a machine that is twice beside
+//! itself changes twice as much at as many instants, and accumulates as one.
 
 use super::event::EventKind;
 use crate::math::fit;
@@ -17,7 +20,7 @@ use std::collections::VecDeque;
 const SHORT: f64 = 1e-2;
 /// A long flight is forgotten by this factor with each event.
 const FORGOTTEN: f64 = 0.9995;
-/// The longest round, in changes, and the number of changes that are kept: three rounds and the change before them.
+/// The longest round, in instants, and the number of instants that are kept: three rounds and the one before them.
 const LONGEST: usize = 32;
 const KEPT: usize = 3 * LONGEST + 1;
 /// Factors that differ by less than this part of them are equal.
@@ -32,7 +35,7 @@ const FALLS: f64 = 1e-4;
 const TOGETHER: f64 = 1e-6;
 /// A stop is struck again and again if it is at least so often among the changes kept.
 const OFTEN: usize = 4;
-/// A part of the changes at both ends, whose speeds are compared, and the factor by which they have fallen: while few changes are
+/// A part of the instants at both ends, whose speeds are compared, and the factor by which they have fallen: while few instants are
 /// kept, and when all are.
 const ENDS: usize = 4;
 const FEW: usize = 24;
@@ -40,7 +43,7 @@ const MUCH_SLOWER: f64 = 1e-3;
 const SLOWER: f64 = 0.5;
 /// What is below so many rounding errors of the largest value of late is one.
 const NOISE: f64 = 8.0;
-/// In how many changes it is asked once whether a collapse without rounds is near.
+/// In how many instants it is asked once whether a collapse without rounds is near.
 const EVERY: usize = 8;
 
 /// The kinds of changes, in the order of their numbers.
@@ -62,6 +65,10 @@ struct Change {
     speed: f64,
     /// The time since the change before it.
     after: f64,
+    /// Whether it is the first one of its instant.
+    begins: bool,
+    /// Whether the flight to it began with exact gaps of the stops that it struck.
+    exact: bool,
 }
 
 impl Change {
@@ -90,6 +97,8 @@ pub(super) struct Round {
     pub(super) error: f64,
     /// The largest speed of its impacts.
     pub(super) speed: f64,
+    /// Whether the times of its impacts have no rounding errors of the coordinates.
+    pub(super) exact: bool,
 }
 
 /// The latest changes, as long as flights are short.
@@ -103,10 +112,15 @@ pub(super) struct Instants {
     fastest: f64,
     speeds: Vec<f64>,
     short: bool,
-    /// How many changes have been kept since the last long flight.
+    /// At how many instants there were changes since the last long flight.
     count: usize,
-    /// The time since the last change.
+    /// How many of them are kept.
+    kept: usize,
+    /// The time since the last change, and whether there was a flight since then.
     passed: f64,
+    flew: bool,
+    /// Whether the last flight began with exact gaps of the stops that it has reached.
+    exact: bool,
     /// The last one first.
     latest: VecDeque<Change>,
 }
@@ -116,11 +130,14 @@ impl Instants {
     #[inline]
     pub(super) fn pass(&mut self, s: f64) {
         self.passed += s;
+        self.flew = true;
     }
 
-    /// Notes that a flight has ended.
+    /// Notes that a flight has ended, at this state; `exact` says whether the gaps of the stops that it has reached were exact at its
+    /// beginning.
     #[inline]
-    pub(super) fn land(&mut self, x: &[f64], v: &[f64]) {
+    pub(super) fn land(&mut self, x: &[f64], v: &[f64], exact: bool) {
+        self.exact = exact;
         fit(&mut self.speeds, v.len());
         let (mut of_x, mut of_v) = (0.0, 0.0);
         let larger = |one: f64, other: f64| if one > other { one } else { other };
@@ -138,7 +155,7 @@ impl Instants {
         // after a long flight nothing accumulates
         if !self.short {
             self.longest = self.longest.max(self.passed);
-            self.count = 0;
+            (self.count, self.kept) = (0, 0);
             self.passed = 0.0;
             self.latest.clear();
         }
@@ -206,11 +223,30 @@ impl Instants {
     #[inline]
     pub(super) fn keep(&mut self, kind: EventKind, place: usize, speed: f64) {
         if self.short {
-            let after = core::mem::take(&mut self.passed);
-            self.latest.push_front(Change { kind, place, speed, after });
-            self.latest.truncate(KEPT);
-            self.count += 1;
+            let (after, begins) = (core::mem::take(&mut self.passed), core::mem::take(&mut self.flew));
+            self.latest.push_front(Change { kind, place, speed, after, begins, exact: self.exact });
+            if begins {
+                (self.count, self.kept) = (self.count + 1, self.kept + 1);
+                self.forget_oldest();
+            }
         }
+    }
+
+    /// Forgets the oldest instants beyond those that are kept.
+    fn forget_oldest(&mut self) {
+        while self.kept > KEPT {
+            self.kept -= 1;
+            self.latest.pop_back();
+            while self.latest.back().is_some_and(|oldest| !oldest.begins) {
+                self.latest.pop_back();
+            }
+        }
+    }
+
+    /// The number of changes at so many latest instants.
+    fn changes_at(&self, instants: usize) -> usize {
+        let begins = self.latest.iter().enumerate().filter(|(_, change)| change.begins);
+        begins.take(instants).last().map_or(0, |(k, _)| k + 1)
     }
 
     /// All of it as numbers: the squares of the size of coordinates and of velocities, the longest flight, the number of changes, the velocities, and each change.
@@ -221,7 +257,11 @@ impl Instants {
             return Vec::new();
         }
         let kind = |kind| KINDS.iter().position(|known| *known == kind).unwrap_or(0) as f64;
-        let change = |change: &Change| [kind(change.kind), change.place as f64, change.speed, change.after];
+        let mark = |of: bool| f64::from(u8::from(of));
+        let change = |change: &Change| {
+            let Change { place, speed, after, begins, exact, .. } = *change;
+            [kind(change.kind), place as f64, speed, after, mark(begins), mark(exact)]
+        };
         let head = [self.square, self.fastest, self.longest, self.count as f64];
         head.into_iter().chain(self.speeds.iter().copied()).chain(self.latest.iter().flat_map(change)).collect()
     }
@@ -231,15 +271,17 @@ impl Instants {
     pub(super) fn of_numbers(numbers: &[f64], (coordinates, places): (usize, usize)) -> Option<Self> {
         let ([square, fastest, longest, count], rest) = numbers.split_first_chunk()?;
         let (speeds, changes) = rest.split_at_checked(coordinates)?;
-        let (changes, rest) = changes.as_chunks::<4>();
-        let change = |[kind, place, speed, after]: &[f64; 4]| {
+        let (changes, rest) = changes.as_chunks::<6>();
+        let change = |[kind, place, speed, after, begins, exact]: &[f64; 6]| {
             let kind = (0..KINDS.len()).find(|k| *k as f64 == *kind).map(|k| KINDS[k])?;
             let place = (0..places).find(|at| *at as f64 == *place)?;
-            Some(Change { kind, place, speed: *speed, after: *after })
+            let (begins, exact) = (*begins == 1.0, *exact == 1.0);
+            Some(Change { kind, place, speed: *speed, after: *after, begins, exact })
         };
         let latest: VecDeque<Change> = changes.iter().map(change).collect::<Option<_>>()?;
+        let kept = latest.iter().filter(|change| change.begins).count();
         let whole = rest.is_empty()
-            && latest.len() <= KEPT
+            && kept <= KEPT
             && *square > 0.0
             && *fastest >= 0.0
             && *longest >= 0.0
@@ -251,7 +293,10 @@ impl Instants {
             speeds: speeds.to_vec(),
             short: !latest.is_empty(),
             count: *count as usize,
+            kept,
             passed: 0.0,
+            flew: false,
+            exact: false,
             latest,
         })
     }
@@ -265,7 +310,8 @@ impl Instants {
     /// The shortest round that repeats itself at the end.
     pub(super) fn round(&self) -> Option<Round> {
         // two rounds and the change before them are compared
-        (1..=LONGEST.min(self.latest.len().saturating_sub(1) / 2)).find_map(|period| self.round_of(period))
+        let most = self.changes_at(LONGEST).min(self.latest.len().saturating_sub(1) / 2);
+        (1..=most).find_map(|period| self.round_of(period))
     }
 
     /// A round of so many changes.
@@ -312,27 +358,28 @@ impl Instants {
             left,
             error,
             speed: impacts(period).map(|k| all[k].speed).fold(0.0, f64::max),
+            exact: impacts(2 * period).all(|k| all[k].exact),
         })
     }
 
     /// Several stops that are struck again and again, ever more slowly, without a round that repeats itself; asked once in some
-    /// changes.
+    /// instants.
     pub(super) fn crowd(&self) -> Option<Vec<usize>> {
-        let count = self.latest.len();
+        let count = self.kept;
         if count < FEW || !self.count.is_multiple_of(EVERY) {
             return None;
         }
-        // while few changes are kept, they must slow down by much more before they count as a crowd
+        // while few instants are kept, they must slow down by much more before they count as a crowd
         let factor = if count < KEPT { MUCH_SLOWER } else { SLOWER };
-        let late = fastest(self.latest.iter().take(count / ENDS));
-        let early = fastest(self.latest.iter().rev().take(count / ENDS));
+        let late = fastest(self.latest.iter().take(self.changes_at(count / ENDS)));
+        let early = fastest(self.latest.iter().skip(self.changes_at(count - count / ENDS)));
         if late > factor * early { None } else { self.struck_often() }
     }
 
     /// Several stops that are struck again and again, and no way of any of them in all changes that are kept was longer than this;
-    /// asked once in some changes.
+    /// asked once in some instants.
     pub(super) fn crowd_in_place(&self) -> Option<(Vec<usize>, f64)> {
-        if self.latest.len() < KEPT || !self.count.is_multiple_of(EVERY) {
+        if self.kept < KEPT || !self.count.is_multiple_of(EVERY) {
             return None;
         }
         let time: f64 = self.latest.iter().map(|change| change.after).sum();

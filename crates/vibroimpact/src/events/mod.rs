@@ -18,6 +18,7 @@
 //! | what it does between two events | [`Stretches`], `stretch` |
 //! | the forces of stops and joints during a flight | `contact_force` |
 //! | states, gaps and forces at one time, at equal steps | [`Sample`], [`Samples`] |
+//! | states at given times, and at one position | [`states_at`], [`crossings`] |
 
 mod advance;
 mod alone;
@@ -40,6 +41,7 @@ mod saltation;
 mod sample;
 mod samples;
 mod state;
+mod states;
 mod stretch;
 mod stretches;
 mod strike;
@@ -55,5 +57,6 @@ pub(crate) use place::{Place, Structures, standing_back};
 pub(crate) use saltation::{EventLaw, LinearEvent, StateShape, step_derivative};
 pub use sample::Sample;
 pub use samples::Samples;
+pub use states::{crossings, states_at};
 pub use stretches::Stretches;
 pub(crate) use tangents::{FrameChange, Metric, TangentStep, stretched, tangent_steps};

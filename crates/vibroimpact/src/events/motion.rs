@@ -226,7 +226,7 @@ impl<'a> Motion<'a> {
             _ => *state,
         };
         let before: Vec<ContactState> = self.place.states.iter().enumerate().map(before).collect();
-        self.instants.land(&self.place.x, &self.place.v);
+        self.instants.land(&self.place.x, &self.place.v, false);
         self.change(&before, &closing, candidates, &[]);
         // the given states may not be those that the forces allow
         let checked = !given.is_empty() && closing.is_empty() && self.end.is_none();

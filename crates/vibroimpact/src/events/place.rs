@@ -57,6 +57,8 @@ pub(crate) fn standing_back(law: &StopLaw, depth: f64) -> Option<Recovery> {
     (damping > 0.0).then(|| Recovery { size: depth + offset, rate: stiffness / damping, offset })
 }
 
+/// A gap is kept if its error is below this part of it.
+const SHARP: f64 = 1e-6;
 /// A surface that is slower than the body by more than this part does not leave it where their force ends.
 const TAKEN_OFF: f64 = 1e-9;
 
@@ -94,8 +96,9 @@ pub(crate) struct Place {
     pub(crate) surfaces: Vec<Option<Recovery>>,
     /// How many derivatives of a guard are zero now.
     pub(crate) known: Vec<(GuardKind, usize)>,
-    /// The gaps of stops that were closed in the last flight, or have closed on their surface. They have more digits than the coordinates leave: a stiff stop
-    /// is closed by little, and its force is as accurate as its gap.
+    /// The gaps of stops that were closed in the last flight, or have closed on their surface, and small ones of open stops after a short
+    /// flight. They have more digits than the coordinates leave: a stiff stop is closed by little, and its force is as accurate as
+    /// its gap; the impacts of a chatter come as accurately as the gaps are known that are left between them.
     pub(crate) gaps: Vec<(usize, f64)>,
 }
 
@@ -235,8 +238,26 @@ impl Place {
         surface.is_none()
     }
 
-    /// The gap of a stop that was closed in the last flight, or that has closed on its surface.
-    fn sharp_gap(&self, stop: usize) -> Option<f64> {
+    /// Keeps the small gaps of open stops at the end of a short flight, whose modes are these and which ends with these guards. A
+    /// gap that began as zero or with all digits has them still, where the coordinates have the rounding errors of their size.
+    pub(super) fn keep_gaps(&mut self, normal: &Normal, flight: &MachineFlight, (modes, ends): (&Modes, &[usize])) {
+        for (g, guard) in flight.structure.guards.iter().enumerate() {
+            let GuardKind::Gap(stop) = guard.kind else { continue };
+            if ends.contains(&g) || self.surfaces[stop].is_some() {
+                continue;
+            }
+            let (gap, _, error) = flight.guard(g, modes);
+            if gap > 0.0 && error < SHARP * gap {
+                let terms = normal.directions[stop].iter().zip(&self.x).map(|(w, x)| (w * x).abs()).sum::<f64>();
+                if error < 0.1 * f64::EPSILON * (normal.walls[stop].constant.abs() + terms) {
+                    self.gaps.push((stop, gap));
+                }
+            }
+        }
+    }
+
+    /// A gap with more digits than the coordinates leave.
+    pub(super) fn sharp_gap(&self, stop: usize) -> Option<f64> {
         self.gaps.iter().find(|(of, _)| *of == stop).map(|(_, gap)| *gap)
     }
 

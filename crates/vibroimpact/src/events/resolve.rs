@@ -14,7 +14,7 @@ use super::place::{Place, Structures};
 use crate::arc::{FIRST_ORDERS, MachineFlight, ORDERS};
 use crate::machine::Machine;
 use crate::math::sort_by_key;
-use crate::regime::{ContactState, GuardKind, Normal, Observable, compliant, idles, independent};
+use crate::regime::{ContactState, GuardKind, Normal, Observable, bearing, compliant};
 
 /// Rounding errors of reactions, accelerations and their rates, relative to their terms.
 const SMALL: f64 = 1e-11;
@@ -102,12 +102,9 @@ impl Resolution<'_> {
     fn states(&self, of: &[ContactState]) -> Vec<ContactState> {
         let mut states = self.place.states.clone();
         self.candidates.iter().zip(of).for_each(|(at, state)| states[*at] = *state);
-        let mut closed: Vec<usize> = (0..states.len()).filter(|at| states[*at].constrains()).collect();
-        // those that bear a load first: the others may turn out to depend on them
-        sort_by_key(&mut closed, |at| idles(self.machine, *at));
-        let bearing = independent(closed.iter().map(|at| self.normal.directions[*at].as_slice()));
-        for (k, at) in closed.iter().enumerate() {
-            if states[*at] == ContactState::Resting && !bearing.contains(&k) {
+        let (closed, bearing) = bearing(self.machine, self.normal, &states, |_| false);
+        for at in closed.iter().filter(|at| !bearing.contains(at)) {
+            if states[*at] == ContactState::Resting {
                 states[*at] = ContactState::Touching;
             }
         }

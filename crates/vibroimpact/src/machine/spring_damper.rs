@@ -14,7 +14,7 @@
 //! Granular Matter 9 (2007) 465-469, doi:10.1007/s10035-007-0065-z).
 
 use super::{Fault, MachineError, Opening};
-use crate::math::{atan2, exp, exp_m1, ln, ln_1p, root};
+use crate::math::{atan2, exp, exp_m1, ln, ln_1p};
 use core::f64::consts::PI;
 
 /// A larger damping ratio gives no smaller restitution that a double can tell from 0.
@@ -37,16 +37,22 @@ pub struct SpringDamper {
     opening: Opening,
 }
 
-/// A number that must be positive.
+/// A number that must be positive. Products of two of them are finite.
 fn positive(name: &str, value: f64) -> Result<f64, MachineError> {
-    let fault = || Fault::Range { value, range: "0 < value < infinity" };
-    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(MachineError::new(name, fault())) }
+    let fault = || Fault::Range { value, range: "1e-100 to 1e100" };
+    if (1e-100..=1e100).contains(&value) { Ok(value) } else { Err(MachineError::new(name, fault())) }
+}
+
+/// $`1 - \zeta^2`$, and the root of its absolute value.
+fn root(ratio: f64) -> (f64, f64) {
+    let square = (1.0 - ratio) * (1.0 + ratio);
+    // the square of a larger ratio may be infinite, and its root is the ratio to rounding
+    (square, if ratio > 1e10 { ratio } else { square.abs().sqrt() })
 }
 
 /// A(ζ) of the formulas of this file.
 fn angle(ratio: f64) -> f64 {
-    let square = (1.0 - ratio) * (1.0 + ratio);
-    let root = square.abs().sqrt();
+    let (square, root) = root(ratio);
     if root == 0.0 {
         1.0
     } else if square > 0.0 {
@@ -61,7 +67,7 @@ fn restitution(ratio: f64, opening: Opening) -> f64 {
     match opening {
         Opening::Force => exp(-2.0 * ratio * angle(ratio)),
         Opening::Position if ratio >= 1.0 => 0.0,
-        Opening::Position => exp(-PI * ratio / ((1.0 - ratio) * (1.0 + ratio)).sqrt()),
+        Opening::Position => exp(-PI * ratio / root(ratio).1),
     }
 }
 
@@ -72,8 +78,8 @@ impl SpringDamper {
     /// [`MachineError`] for a mass or stiffness that is not positive, or a damping that is negative; none may be infinite.
     pub fn new(mass: f64, stiffness: f64, damping: f64, opening: Opening) -> Result<Self, MachineError> {
         let (mass, stiffness) = (positive("mass", mass)?, positive("stiffness", stiffness)?);
-        if !(damping >= 0.0 && damping.is_finite()) {
-            let fault = Fault::Range { value: damping, range: "0 <= value < infinity" };
+        if !(0.0..=1e100).contains(&damping) {
+            let fault = Fault::Range { value: damping, range: "0 to 1e100" };
             return Err(MachineError::new("damping", fault));
         }
         Ok(Self { mass, stiffness, damping, opening })
@@ -95,7 +101,10 @@ impl SpringDamper {
             // the restitution falls with the damping ratio
             Opening::Force if loss == 0.0 => 0.0,
             Opening::Force => {
-                root::border(0.0, LARGEST_RATIO.min(1.0 / wanted), |ratio| restitution(ratio, opening) > wanted).1
+                crate::math::root::border(0.0, LARGEST_RATIO.min(1.0 / wanted), |ratio| {
+                    restitution(ratio, opening) > wanted
+                })
+                .1
             }
         };
         Ok(Self { damping: 2.0 * ratio * (stiffness * mass).sqrt(), ..undamped })
@@ -150,7 +159,7 @@ impl SpringDamper {
         let turned = match self.opening {
             Opening::Force => 2.0 * angle(ratio),
             Opening::Position if ratio >= 1.0 => f64::INFINITY,
-            Opening::Position => PI / ((1.0 - ratio) * (1.0 + ratio)).sqrt(),
+            Opening::Position => PI / root(ratio).1,
         };
         turned / self.frequency()
     }
@@ -169,7 +178,7 @@ impl SpringDamper {
         if ratio >= 0.5 {
             return self.damping * speed;
         }
-        let root = ((1.0 - ratio) * (1.0 + ratio)).sqrt();
+        let (_, root) = root(ratio);
         let turned = (3.0 * atan2(root, ratio) - PI) / root;
         speed * (self.stiffness * self.mass).sqrt() * exp(-ratio * turned)
     }
@@ -188,8 +197,7 @@ impl SpringDamper {
     #[must_use]
     pub fn at(&self, speed: f64, time: f64) -> (f64, f64) {
         let ratio = self.damping_ratio();
-        let square = (1.0 - ratio) * (1.0 + ratio);
-        let (root, turned) = (square.abs().sqrt(), self.frequency() * time);
+        let ((square, root), turned) = (root(ratio), self.frequency() * time);
         // e^(-ζ t) sin(√ t)/√ and e^(-ζ t) cos(√ t), with the hyperbolic functions beyond critical damping
         let (sine, cosine) = if root * turned < 1e-9 {
             let decay = exp(-ratio * turned);
@@ -214,7 +222,7 @@ mod tests {
     use super::*;
 
     fn contacts() -> impl Iterator<Item = SpringDamper> {
-        let ratios = [0.0, 1e-9, 0.1, 0.3, 0.499, 0.5, 0.7, 0.999, 1.0, 1.000_000_1, 1.5, 8.0];
+        let ratios = [0.0, 1e-9, 0.1, 0.3, 0.499, 0.5, 0.7, 0.999, 1.0, 1.000_000_1, 1.5, 8.0, 1e6];
         let openings = [Opening::Force, Opening::Position];
         ratios.into_iter().flat_map(move |ratio| {
             openings.map(|opening| SpringDamper::new(2.0, 18.0, 2.0 * ratio * 6.0, opening).unwrap())
@@ -259,6 +267,8 @@ mod tests {
                 assert!(SpringDamper::with_restitution(2.0, 50.0, refused, opening).is_err());
             }
         }
+        let extreme = SpringDamper::new(1e-100, 1e-100, 1e100, Opening::Force).unwrap();
+        assert!(extreme.restitution() == 0.0 && extreme.peak_force(1.0) == 1e100 && extreme.deepest(1.0) >= 0.0);
         assert!(SpringDamper::new(0.0, 1.0, 0.0, Opening::Force).is_err());
         assert!(SpringDamper::new(1.0, 1.0, -1.0, Opening::Force).is_err());
     }

@@ -45,9 +45,7 @@ impl Constraints {
     /// `None` if a stop at rest depends on others.
     pub(super) fn of(machine: &Machine, normal: &Normal, states: &[ContactState]) -> Option<Self> {
         let stops = machine.stops().len();
-        let constraints = in_order(machine, states);
-        let bearing = independent(constraints.iter().map(|place| normal.directions[*place].as_slice()));
-        let held: Vec<usize> = bearing.iter().map(|at| constraints[*at]).collect();
+        let (constraints, held) = bearing(machine, normal, states, |place| states[place] == ContactState::Touching);
         let directions: Vec<Vec<f64>> = held.iter().map(|place| normal.directions[*place].clone()).collect();
         let mut shared = vec![0.0; held.len()];
         let mut sharing = Vec::new();
@@ -122,11 +120,39 @@ impl Constraints {
     }
 }
 
-/// The places of all constraints: first those that bear a load, because contacts without force constrain only what is free.
-fn in_order(machine: &Machine, states: &[ContactState]) -> Vec<usize> {
+/// The places of all constraints and of those that bear the loads, which do not depend on each other: `last` says which come last, as
+/// contacts without force, which constrain only what is free.
+///
+/// Where a hold depends on stops at rest and other holds in other directions, as of two bodies that hold and touch, how the loads are
+/// shared is undetermined. Then holds come before rests, so that it does not depend on their order.
+pub(crate) fn bearing(
+    machine: &Machine,
+    normal: &Normal,
+    states: &[ContactState],
+    last: impl Fn(usize) -> bool,
+) -> (Vec<usize>, Vec<usize>) {
+    let direction = |place: usize| normal.directions[place].as_slice();
     let mut constraints: Vec<usize> = (0..states.len()).filter(|place| states[*place].constrains()).collect();
-    sort_by_key(&mut constraints, |place| (states[*place] == ContactState::Touching, idles(machine, *place)));
-    constraints
+    sort_by_key(&mut constraints, |place| (last(*place), idles(machine, *place)));
+    let bearing = |constraints: &[usize]| -> Vec<usize> {
+        let bearing = independent(constraints.iter().map(|place| direction(*place)));
+        bearing.iter().map(|at| constraints[*at]).collect()
+    };
+    let along = |one: usize, other: usize| independent([direction(one), direction(other)].into_iter()).len() == 1;
+    let holds = |place: &usize| states[*place] == ContactState::Holding;
+    let held = bearing(&constraints);
+    let rides =
+        |place: &usize| holds(place) && !held.contains(place) && !held.iter().any(|other| along(*other, *place));
+    if !constraints.iter().any(rides) {
+        return (constraints, held);
+    }
+    // a joint along a rest shares its load
+    let shares = |stop: usize| constraints.iter().any(|place| holds(place) && along(*place, stop));
+    let rests: Vec<bool> =
+        (0..states.len()).map(|at| states[at] == ContactState::Resting && idles(machine, at) && !shares(at)).collect();
+    sort_by_key(&mut constraints, |place| (last(*place), idles(machine, *place), rests[*place]));
+    let held = bearing(&constraints);
+    (constraints, held)
 }
 
 /// The products of the directions with each other.
@@ -172,6 +198,6 @@ fn parallel(directions: &[Vec<f64>], other: &[f64]) -> Option<(usize, f64)> {
 
 /// Whether a constraint can be without load: not a preloaded stop. Of constraints that depend on each other those that cannot
 /// come first.
-pub(crate) fn idles(machine: &Machine, place: usize) -> bool {
+fn idles(machine: &Machine, place: usize) -> bool {
     machine.stops().get(place).is_none_or(|stop| compliant(&stop.law).is_none())
 }

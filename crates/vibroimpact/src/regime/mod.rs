@@ -48,7 +48,7 @@ pub(crate) use bernstein::{TERMS, bernstein};
 pub(crate) use change::ModalChange;
 pub(crate) use closed_stop::ClosedStop;
 pub(crate) use complement::{Orthonormal, independent};
-pub(crate) use constraints::idles;
+pub(crate) use constraints::bearing;
 pub use contact_state::ContactState;
 pub(crate) use guards::GuardKind;
 pub(crate) use mode::{FreeMode, Mode, Turned};

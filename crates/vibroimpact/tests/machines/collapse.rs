@@ -106,3 +106,31 @@ fn a_start_on_several_stops() {
         }
     }
 }
+
+/// A sum is taken where nothing but rounding errors of the time is left of it: of two bodies above a floor, which strike it and each
+/// other in turn (120 digits), and of a body on a wall whose impacts move a friction joint (60 digits). Coordinates have rounding
+/// errors of their size, which slow impacts would make errors of 1e-11 of the time.
+#[test]
+fn f42v_sums_have_all_digits() {
+    let mut column = MachineParts::new(["b1", "b2"]);
+    for k in 0..2 {
+        column = column.with_mass(k, 0.3).with_constant(k, -2.943);
+    }
+    let (e, height) = (0.137_042_763_668_395_57, 0.813_111_630_910_721_6);
+    let column = column.with_rigid_stop("floor", &[-1.0, 0.0], height, e).with_rigid_stop("c1", &[1.0, -1.0], 0.17, e);
+    let joined = MachineParts::new(["x"])
+        .with_mass(0, 1.0)
+        .with_link(&[1.0], 1.542_838_702_471_810_4, 0.073_095_482_576_397_47)
+        .with_frequency(1.380_945_407_879_099)
+        .with_force(0, 1, 0.0, 1.434_578_803_373_377_7)
+        .with_rigid_stop("wall", &[1.0], 0.2, 0.27)
+        .with_joint("j1", &[1.0], 0.320_167_054_250_303_34, 0.320_167_054_250_303_34, 0.0)
+        .with_joint("j2", &[1.0], 0.099_187_537_673_043_31, 0.099_187_537_673_043_31, 0.0);
+    let cases =
+        [(column, EventKind::Collapse, 0.452_767_434_846_136_73), (joined, EventKind::Stick, 1.447_724_466_195_656_1)];
+    for (parts, kind, expected) in cases {
+        let (seen, _) = events(&Machine::new(parts).unwrap(), &Start::default());
+        let sum = seen.iter().find(|event| event.kind == kind).unwrap();
+        assert!((sum.time - expected).abs() < 2e-14, "{} instead of {expected}", sum.time);
+    }
+}

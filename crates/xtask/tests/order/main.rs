@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// The folders of the core, in order.
-const ORDER: [&str; 17] = [
+const ORDER: [&str; 18] = [
     "math",
     "system",
     "machine",

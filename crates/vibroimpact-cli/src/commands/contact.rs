@@ -1,0 +1,183 @@
+//! `vibro contact`: the contact of a mass with a spring and a damper.
+
+use crate::args::{OutputArgs, UnitKind};
+use crate::commands::outputs::Outputs;
+use crate::failure::Failure;
+use crate::report::words::table;
+use crate::session::Session;
+use clap::{Args, ValueEnum};
+use core::f64::consts::TAU;
+use vibroimpact::machine::{MachineError, Opening, SpringDamper};
+use vibroimpact_report::number::short;
+use vibroimpact_report::{ContactAnswer, ContactObject};
+
+/// Convert between restitution, stiffness and damping of a contact
+///
+/// A free mass strikes a spring with a damper beside it and leaves when their force falls to zero (force), or where the spring
+/// is relaxed again (position). In closed form: restitution, contact time, largest depth and force, and the depth at which it leaves.
+#[derive(Clone, Debug, Args)]
+#[command(
+    override_usage = "vibro contact --restitution E --mass-kg M --stiffness-n-per-m K [OPTIONS]\n       \
+        vibro contact --damping-ns-per-m C --mass-kg M --frequency-hz F [OPTIONS]",
+    after_help = "Examples:\n  \
+        vibro contact --restitution 0.6 --mass 0.8kg --stiffness 2e5N/m --speed 0.5\n  \
+        vibro contact --restitution 0.6 --mass-kg 0.8 --contact-time-s 0.002 --csv contact.csv\n  \
+        vibro contact --damping-ns-per-m 120 --mass-kg 0.8 --frequency-hz 300 --plot contact.svg",
+    mut_arg("plot", |arg| arg.help("Draw the force over the depth into this file, .svg, .png or .pdf")),
+    mut_arg("csv", |arg| arg.help("Write one row for each way to open to this file; - for stdout"))
+)]
+pub(crate) struct Contact {
+    /// Restitution, above 0 and up to 1
+    #[arg(long, value_parser = in_unit(UnitKind::Ratio), value_name = "E", group = "loss", help_heading = "Contact")]
+    restitution: Option<f64>,
+
+    /// Damping in N s/m instead, 0 or more
+    #[arg(long, value_parser = in_unit(UnitKind::DampingCoefficient), value_name = "C", group = "loss", help_heading = "Contact")]
+    damping_ns_per_m: Option<f64>,
+
+    /// Damping ratio c / (2 sqrt(k m)) instead, 0 or more
+    #[arg(long, value_parser = in_unit(UnitKind::Ratio), value_name = "Z", group = "loss", help_heading = "Contact")]
+    damping_ratio: Option<f64>,
+
+    /// Mass in kg, positive; of two bodies m1 m2 / (m1 + m2)
+    #[arg(long, visible_alias = "mass", value_parser = in_unit(UnitKind::Mass), value_name = "M", help_heading = "Contact")]
+    mass_kg: Option<f64>,
+
+    /// Stiffness in N/m, positive
+    #[arg(long, visible_alias = "stiffness", value_parser = in_unit(UnitKind::Stiffness), value_name = "K", group = "spring", help_heading = "Contact")]
+    stiffness_n_per_m: Option<f64>,
+
+    /// Frequency of the mass on the spring in Hz, without the mass or instead of the stiffness
+    #[arg(long, visible_alias = "frequency", value_parser = in_unit(UnitKind::Frequency), value_name = "F", help_heading = "Contact")]
+    frequency_hz: Option<f64>,
+
+    /// Contact time in s instead of the stiffness
+    #[arg(long, value_parser = in_unit(UnitKind::Time), value_name = "T", group = "spring", conflicts_with = "frequency_hz", help_heading = "Contact")]
+    contact_time_s: Option<f64>,
+
+    /// Speed of approach in m/s
+    #[arg(long, visible_alias = "speed", value_parser = in_unit(UnitKind::Velocity), value_name = "V", default_value = "1", help_heading = "Contact")]
+    speed_m_per_s: f64,
+
+    /// When the contact opens [default: both]
+    #[arg(long, value_name = "WHEN", help_heading = "Contact")]
+    opening: Option<When>,
+
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+/// When a contact opens.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum When {
+    /// When its force falls to zero
+    Force,
+    /// Where its spring is relaxed again
+    Position,
+}
+
+/// A number with or without a unit.
+fn in_unit(kind: UnitKind) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
+    move |text| kind.parse(text)
+}
+
+pub(super) fn run(args: &Contact, session: &Session) -> Result<(), Failure> {
+    let speed = args.speed_m_per_s;
+    if !(1e-100..=1e100).contains(&speed) {
+        return Err(Failure::bad(format!("speed = {speed} lies outside 1e-100 to 1e100")));
+    }
+    let openings = match args.opening {
+        Some(When::Force) => vec![Opening::Force],
+        Some(When::Position) => vec![Opening::Position],
+        None => vec![Opening::Force, Opening::Position],
+    };
+    let contacts = openings.into_iter().map(|opening| args.contact(opening)).collect::<Result<Vec<_>, _>>()?;
+    let outputs = Outputs::reserve(args.output.files(), session)?;
+    let (json, silent) = (outputs.json(), outputs.table_on_stdout());
+    let answer = ContactAnswer::new(&contacts, speed);
+    outputs.write(session, || Ok(answer.table()), || Ok(answer.figure()))?;
+    if json {
+        session.print_json(&answer)
+    } else if silent {
+        Ok(())
+    } else {
+        session.print(&text(&answer))
+    }
+}
+
+impl Contact {
+    /// The contact that opens so.
+    fn contact(&self, opening: Opening) -> Result<SpringDamper, Failure> {
+        let refused = |error: MachineError| Failure::bad(error.to_string());
+        let of = |mass: f64, stiffness: f64| {
+            let contact = match (self.restitution, self.damping_ns_per_m, self.damping_ratio) {
+                (Some(restitution), ..) => SpringDamper::with_restitution(mass, stiffness, restitution, opening),
+                (_, Some(damping), _) => SpringDamper::new(mass, stiffness, damping, opening),
+                (.., Some(ratio)) => {
+                    SpringDamper::new(mass, stiffness, 2.0 * ratio * (stiffness * mass).sqrt(), opening)
+                }
+                _ => {
+                    return Err(Failure::bad(
+                        "what does the contact lose?\nhint: --restitution, --damping-ns-per-m or --damping-ratio",
+                    ));
+                }
+            };
+            contact.map_err(refused)
+        };
+        let square = self.frequency_hz.map(|hertz| (TAU * hertz) * (TAU * hertz));
+        match (self.mass_kg, self.stiffness_n_per_m, square, self.contact_time_s) {
+            (Some(_), Some(_), Some(_), _) => {
+                Err(Failure::bad("mass, stiffness and frequency: two of them give the third\nhint: leave one away"))
+            }
+            (Some(mass), Some(stiffness), None, _) => of(mass, stiffness),
+            (Some(mass), None, Some(square), _) => of(mass, mass * square),
+            (None, Some(stiffness), Some(square), _) => of(stiffness / square, stiffness),
+            // of each kilogram
+            (None, None, Some(square), _) => of(1.0, square),
+            (Some(mass), None, None, Some(time)) => {
+                if self.damping_ns_per_m.is_some() {
+                    return Err(Failure::bad(
+                        "--contact-time-s and --damping-ns-per-m do not determine a stiffness\nhint: --restitution or --damping-ratio",
+                    ));
+                }
+                // with a given ratio the time falls as the root of the stiffness
+                let unit = of(mass, mass)?;
+                let turned = unit.contact_time() / time;
+                if !(turned > 0.0 && turned.is_finite()) {
+                    return Err(Failure::bad(format!(
+                        "no stiffness gives the contact time {time}: a contact with damping ratio {} does not open by position",
+                        short(unit.damping_ratio())
+                    )));
+                }
+                of(mass, mass * turned * turned)
+            }
+            _ => Err(Failure::bad(
+                "the spring is not determined\nhint: --mass-kg with --stiffness-n-per-m, --frequency-hz or --contact-time-s",
+            )),
+        }
+    }
+}
+
+fn text(answer: &ContactAnswer) -> String {
+    let all = &answer.contacts;
+    let line = |name: &str, value: &dyn Fn(&ContactObject) -> String| {
+        let mut row = vec![name.to_owned()];
+        row.extend(all.iter().map(value));
+        row
+    };
+    let opens = all.iter().map(|of| format!("by {}", of.opening));
+    let heads: Vec<String> = core::iter::once("<opens".to_owned()).chain(opens).collect();
+    let rows = [
+        line("restitution", &|of| short(of.restitution)),
+        line("damping ratio", &|of| short(of.damping_ratio)),
+        line("damping (N s/m)", &|of| short(of.damping)),
+        line("mass (kg)", &|of| short(of.mass)),
+        line("stiffness (N/m)", &|of| short(of.stiffness)),
+        line("frequency (Hz)", &|of| short(of.frequency)),
+        line("contact time (s)", &|of| of.contact_time.map_or_else(|| "never opens".to_owned(), short)),
+        line("largest depth (m)", &|of| short(of.depth_max)),
+        line("largest force (N)", &|of| short(of.force_max)),
+        line("depth at opening (m)", &|of| short(of.residual_depth)),
+    ];
+    format!("approach at {} m/s\n{}", short(answer.speed), table(&heads, &rows))
+}

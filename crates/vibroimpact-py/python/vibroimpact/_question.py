@@ -1,0 +1,147 @@
+"""What all questions have in common: where a motion starts, whole numbers, progress, threads, and where a grid is computed."""
+
+import inspect
+from collections.abc import Callable, Mapping
+from functools import wraps
+from typing import Any
+
+import numpy as np
+
+from vibroimpact._ask import Start, System, answered
+from vibroimpact._core import QuestionError
+from vibroimpact._oscillator import Oscillator
+from vibroimpact._plan import Plan
+from vibroimpact._plan import made as made_plan
+from vibroimpact._progress import Progress
+from vibroimpact._result import View
+from vibroimpact._whole import ranges, whole
+
+#: The parts of a start of any system, and those that only the start of a machine has beside a label.
+START, STATE = ("x", "v", "q", "qdot", "phase"), ("q", "qdot", "phase")
+
+_SYSTEM = """system : Oscillator or Machine
+        The system."""
+_OF_MACHINE = """q, qdot, phase : array, array, float
+        Start of a machine: coordinates, velocities and phase. Default: those of its `start`, or 0."""
+_OF_OSCILLATOR = """x, v, phase : float
+        Start of an oscillator: position in units of F/k, not beyond a stop (default: at rest, or on the stop), velocity, phase of the
+        force in radians."""
+_THREADS = """threads : int
+        Number of threads; 0 for one per core. The result does not depend on it."""
+_PROGRESS = """progress : bool or callable
+        True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False."""
+_STORE = """store : path
+        The store for the results; tiles that it already contains are not computed again.
+    client : distributed.Client
+        A Dask client, whose workers fill the store.
+    tile : int
+        Points of a tile along each axis."""
+#: What the documentation of several questions says alike.
+_WORDS = {
+    "system": _SYSTEM, "state": _OF_MACHINE, "start": f"{_OF_OSCILLATOR}\n    {_OF_MACHINE}", "threads": _THREADS, "progress": _PROGRESS,
+    "computed": f"{_STORE}\n    {_THREADS}\n    {_PROGRESS}",
+}
+
+
+def numbered(system: System) -> str:
+    """How a plan calls the name of a number of a system."""
+    return "parameter" if isinstance(system, Oscillator) else "path"
+
+
+def known(what: str, given: str | None, allowed: tuple[str | None, ...]) -> None:
+    """Refuse a word that is none of those that are allowed."""
+    if given not in allowed:
+        raise QuestionError(f"{what} = `{given}` is none of {', '.join(filter(None, allowed))}")
+
+
+def fields_of(task: str, system: System, given: Mapping[str, Any]) -> dict[str, Any]:
+    """The fields of a task that are not None; whole numbers are checked."""
+    allowed = ranges(task, isinstance(system, Oscillator))
+    found = {}
+    for name, value in given.items():
+        if value is not None:
+            plain = value.item() if isinstance(value, np.generic) else value
+            found[name] = whole(name, plain, allowed[name]) if name in allowed else plain
+    return found
+
+
+def _documented(made: Any, body: Callable[..., Any], further: Mapping[str, Any], returns: Any) -> Any:
+    """A function with the documentation and the signature of `body`, with further keywords."""
+    words = (body.__doc__ or "").split("{")
+    text = words[0] + "".join(
+        _WORDS[name] + rest if name in _WORDS else f"{{{part}" for part in words[1:] for name, _, rest in [part.partition("}")]
+    )
+    signature = inspect.signature(body)
+    keyword = inspect.Parameter.KEYWORD_ONLY
+    own = [*signature.parameters.values()]
+    more = [inspect.Parameter(name, keyword, default=value) for name, value in further.items() if name not in signature.parameters]
+    made = wraps(body)(made)
+    made.__doc__, made.__signature__ = text, signature.replace(parameters=[*own, *more])
+    del made.__wrapped__
+    made.returns = returns
+    return made
+
+
+def question(
+    result: type[View], task: str, start: tuple[str, ...], what: str, *, threads: bool = False,
+    total: Callable[[System, Mapping[str, Any]], int] = lambda system, task: 1,
+) -> Callable[[Callable[..., Mapping[str, Any]]], Any]:
+    """A question with one answer: the view of the answer to a task, whose fields the function returns. `total` is the amount of work."""
+
+    def of(body: Callable[..., Mapping[str, Any]]) -> Any:
+        def ask(system: System, *given: Any, **options: Any) -> Any:
+            place = Start(system, **{name: options.pop(name, None) for name in start}) if start else Start(system)
+            progress: Progress = options.pop("progress", None)
+            count = options.pop("threads", 0) if threads else 1
+            fields = fields_of(task, system, body(system, *given, **options))
+            answer = answered(
+                system, task, place.within(fields) if start is START else fields, place, total=total(system, fields),
+                threads=count, progress=progress, what=what,
+            )
+            return result(None, system, answer, place)
+
+        further = {**dict.fromkeys(start), **({"threads": 0} if threads else {}), "progress": None}
+        made = _documented(ask, body, further, result)
+        made.task = task
+        return made
+
+    return of
+
+
+def plan_of(task: str) -> Callable[[Callable[..., tuple[Mapping[str, Any], Mapping[str, Any]]]], Any]:
+    """A function that makes the plan of a grid. `body` returns the fields of its task, and the start where it is given."""
+
+    def of(body: Callable[..., tuple[Mapping[str, Any], Mapping[str, Any]]]) -> Any:
+        def make(system: System, *given: Any, tile: int | None = None, **options: Any) -> Plan:
+            fields, start = body(system, *given, **options)
+            place = Start(system, **start)
+            return made_plan(system, task, fields_of(task, system, place.within(fields) if start else fields), tile, place)
+
+        made = _documented(make, body, {"tile": None}, Plan)
+        made.task = task
+        return made
+
+    return of
+
+
+def grid(task: str) -> Callable[[Callable[..., tuple[Mapping[str, Any], Mapping[str, Any]]]], Any]:
+    """A question whose answer is a Dataset over a grid; its plan is made by the attribute `plan`."""
+
+    def of(body: Callable[..., tuple[Mapping[str, Any], Mapping[str, Any]]]) -> Any:
+        make = plan_of(task)(body)
+
+        def ask(
+            system: System, *given: Any, store: Any = None, client: Any = None, threads: int = 0, progress: Progress = None,
+            **options: Any,
+        ) -> Any:
+            from vibroimpact._grid import computed
+
+            plan = make(system, *given, **options)
+            return computed(plan, system.units if isinstance(system, Oscillator) else None, store, client, threads, progress)
+
+        further = {"store": None, "client": None, "tile": None, "threads": 0, "progress": None}
+        made = _documented(ask, body, further, None)
+        made.plan, made.task = make, task
+        return made
+
+    return of

@@ -1,0 +1,592 @@
+"""The questions about a system, each a function of the package and a method of systems. Their arguments are the fields of their
+tasks in plans: `crates/vibroimpact-py/generate.py` writes their types in `_questions.pyi` from the schema of plans.
+
+A question returns the fields of its task. What all questions have in common is in `_question.py`: the start, progress, and whole numbers.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from vibroimpact import _core
+from vibroimpact._attractors import Attractors
+from vibroimpact._axis import axes, beside, interval, names, plane, sweep
+from vibroimpact._branch import Branch
+from vibroimpact._core import QuestionError
+from vibroimpact._curve import Curve
+from vibroimpact._lyapunov import Lyapunov
+from vibroimpact._margins import Margins
+from vibroimpact._orbits import Orbits
+from vibroimpact._oscillator import Oscillator
+from vibroimpact._question import START, STATE, grid, known, numbered, plan_of, question
+from vibroimpact._region import Region
+from vibroimpact._response import Response
+from vibroimpact._settle import Settled
+from vibroimpact._simulate import Simulation
+from vibroimpact._whole import SEED, STARTS, whole
+
+
+def _events(system, task):
+    return task.get("impacts") or (1 if "periods" in task else 100)
+
+
+@question(Simulation, "simulate", START, "events", total=_events)
+def simulate(system, *, impacts=None, periods=None):
+    """Follow a motion event by event: impacts, grazing contacts, sticking and release, contact and slip.
+
+    Parameters
+    ----------
+    {system}
+    {start}
+    impacts : int
+        Stop after this number of impacts, of a machine of events, 1 to 1e7. Default: 100, or 1e6 with `periods`.
+    periods : float
+        Stop after this number of forcing periods, up to 1e9.
+    {progress}
+
+    Examples
+    --------
+    >>> import vibroimpact as vi
+    >>> sim = vi.simulate(vi.Oscillator(inverse_beta=1.8, gap=0.25, restitution=0.5), impacts=20)
+    >>> sim.kind[:3].tolist(), sim.time[:3].round(4).tolist()
+    (['impact', 'impact', 'impact'], [1.4598, 2.2409, 2.6025])
+    >>> wave = sim.waveform()
+    >>> bool(wave.q.max() <= 0.25 + 1e-12)
+    True
+    >>> motion = vi.Machine.named("sdnd101").simulate(impacts=2)
+    >>> motion.kind.tolist(), motion.time.round(6).tolist()
+    (['close', 'open'], [0.0, 0.03126])
+    >>> wave = motion.waveform(1e-4)
+    >>> float(wave.force[:, 0].max().round())          # 9950.37 N in closed form
+    9950.0
+    """
+    return {"impacts": impacts, "periods": periods}
+
+
+@question(Settled, "settle", START, "motions")
+def settle(system, *, impacts=None):
+    """Follow the motion from a start until it has settled, and confirm the result: a cycle, chaos, no further impact, or rest on
+    a stop.
+
+    Parameters
+    ----------
+    {system}
+    {start}
+    impacts : int
+        Budget of impacts, of a machine of events, 1 to 1 000 000. A motion that has not settled by then is undecided. Default: 20 000.
+    {progress}
+
+    Examples
+    --------
+    >>> import vibroimpact as vi
+    >>> osc = vi.Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5)
+    >>> vi.settle(osc), vi.settle(osc, x=-2)
+    (<Settled 2/1, stable>, <Settled 1/1, stable>)
+    >>> found = vi.Machine.named("two-mass-hammer").settle()
+    >>> found, found.counts, len(found.multipliers)
+    (<Settled 1/1, stable>, {'anvil': 1}, 4)
+    """
+    return {"impacts": impacts}
+
+
+@question(Attractors, "attractors", (), "starts", threads=True, total=lambda system, task: task["starts"])
+def attractors(system, starts=200, *, seed=1, impacts=None):
+    """Find the steady motions to which many scattered starts lead, and their shares of the starts.
+
+    The starts are spread evenly over a box of positions, velocities and phases that contains the motion. They are the
+    same on every computer. Motions with the same label are distinguished if their events differ.
+
+    Parameters
+    ----------
+    {system}
+    starts : int
+        Number of starts, 1 to 1e9.
+    seed : int
+        Seed of the sequence of starts.
+    impacts : int
+        Budget of impacts for each start, of a machine of events. Motions that have not settled by then are undecided. Default: 20 000.
+    {threads}
+    {progress}
+
+    Examples
+    --------
+    >>> import vibroimpact as vi
+    >>> list(vi.attractors(vi.Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5)))
+    [<Attractor 2/1, stable, 64 %>, <Attractor 1/1, stable, 36 %>]
+    >>> vi.Machine.named("two-mass-hammer").attractors(20)
+    <Attractors of 20 starts: 1/1, stable, 100 %>
+    """
+    return {"starts": starts, "seed": seed, "impacts": impacts}
+
+
+@question(Orbits, "orbit", (), "searches")
+def orbits(system, label):
+    """Find the periodic orbits with m closings of stops in n forcing periods, stable or not. The fastest one comes last.
+
+    Orbits are searched by Newton's method from many seeds; orbits 1/n of an oscillator are also computed in closed form. An orbit
+    to which no seed leads is not found. Solutions that pass through a stop are inadmissible and marked as such; only some of
+    them are found, and none of a machine.
+
+    Parameters
+    ----------
+    {system}
+    label : str
+        "m/n", "inf/n", "m/T" without forcing, or "0" for the motion of an oscillator without impacts.
+    {progress}
+
+    Examples
+    --------
+    >>> import vibroimpact as vi
+    >>> osc = vi.Oscillator(inverse_beta=1.11, gap=2, restitution=0.5)
+    >>> vi.orbits(osc, "1/1")
+    <Orbits: <Orbit 1/1, unstable>>
+    >>> [orbit for orbit in vi.orbits(osc, "1/2") if orbit.admissible and orbit.stable]
+    [<Orbit 1/2, stable>]
+    >>> vi.Machine.named("two-mass-hammer").orbits("1/1")[-1].stable
+    True
+    """
+    return {"label": label}
+
+
+@question(Branch, "branch", STATE, "branches")
+def branch(system, vary, to, *, label=None, also=None, orbit=None, follow=0, points=5000):
+    """Follow a periodic orbit, stable or not, in one number and through its events.
+
+    The orbit is searched at `system` and followed by pseudo-arclength continuation to the value `to`. Events are located to
+    rounding. At a grazing event the branch continues with the orbit on the other side of the event.
+
+    Parameters
+    ----------
+    system : Oscillator or Machine
+        The system at which the branch begins.
+    vary : str
+        What varies: "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution" of an oscillator,
+        with physical units also "mass_kg" and others; of a machine the path of a number, as "frequency" or "stop.wall.gap".
+    to : float or (float, float)
+        The other end of its range; or both ends, for a branch that is followed both ways from `system`.
+    label : str
+        "m/n" of the orbit there, "m/T" without forcing. Default, of a machine only: that of the motion from the start.
+    also : dict
+        A second number that varies in proportion to the first, and its value where the first is `to`: {"inverse_beta": 1.05}. Its
+        value at the beginning is that of `system`. So a branch can follow any line in two numbers.
+    orbit : int
+        Number of the orbit, counted from 1 in the order of `orbits`. Default: the stable orbit, or else the fastest admissible one.
+    follow : int
+        Maximum number of branches, 0 to 100, to follow from flips and branch points.
+    points : int
+        Maximum number of points of each branch, 2 to 100000.
+    {state}
+    {progress}
+
+    Examples
+    --------
+    >>> import vibroimpact as vi
+    >>> found = vi.branch(vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5), "gap", 2.5, label="1/1", follow=1)
+    >>> [(event.kind, round(event.parameter, 9)) for event in found.events]
+    [('flip', 1.82900619), ('end of range', 2.5)]
+    >>> [event.kind for event in found.followed[0].events]
+    ['fold', 'grazing', 'end of range']
+    >>> found = vi.branch(vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5), "gap", (0.2, 2.5), label="1/1")
+    >>> found.parameter[[0, found.start, -1]].tolist(), [event.kind for event in found.events]
+    ([0.2, 1.5, 2.5], ['end of range', 'fold', 'grazing', 'flip', 'end of range'])
+    >>> [(of.kind, of.stop) for of in vi.Machine.named("two-mass-hammer").branch("frequency", 1.05).events]
+    [('grazing', 'anvil'), ('fold', None), ('end of range', None)]
+    """
+    back, to = map(float, to) if isinstance(to, Sequence) else (None, float(to))
+    second = beside(also)
+    line = second and {numbered(system): second[0], "to": float(second[1])}
+    return {"label": label, "orbit": orbit, "vary": vary, "to": to, "back": back, "also": line, "follow": follow, "points": points}
+
+
+@question(Curve, "curve", STATE, "curves")
+def curve(system, kind, over, *, label=None, orbit=None, event=None, points=None):
+    """Follow an event of an orbit in a plane of two numbers.
+
+    The orbit is searched at `system` and followed in the first number to both ends of its range, as long as it keeps its
+    label. From an event of the given kind the curve is followed in both directions to the edge of the plane.
+
+    Parameters
+    ----------
+    system : Oscillator or Machine
+        The system at which the orbit is searched; it must lie in the plane.
+    kind : str
+        "fold", "flip" or "grazing"; of a machine also "torus", "corner", and "sticking" and "holding", the begin and the end of sticking
+        on a stop and of holding of a friction joint.
+    over : mapping
+        Two numbers and their ranges; the orbit is followed in the first one:
+        {"gap": (0, 5), "inverse_beta": (0.45, 0.9)}. With physical units also {"gap_m": (0.001, 0.01), "force_n": (20, 60)}; the
+        velocities of the impacts are in the units at each point, which depend on the mass, the stiffness and what drives it. Of a
+        machine paths.
+    label : str
+        "m/n" of the orbit there, "m/T" without forcing. Default, of a machine only: that of the motion from the start.
+    orbit : int
+        Number of the orbit, as for `branch`.
+    event : int
+        Number of the event, counted from 1 in order of rising values. Default: the event nearest to `system`.
+    points : int
+        Of a machine the largest number of points in each direction, 2 to 100 000.
+    {state}
+    {progress}
+
+    Examples
+    --------
+    >>> import vibroimpact as vi
+    >>> osc = vi.Oscillator(inverse_beta=0.7, gap=2, restitution=0.5)
+    >>> fold = vi.curve(osc, "fold", {"gap": (0, 5), "inverse_beta": (0.45, 0.9)}, label="1/1")
+    >>> [(event.kind, round(event.values[0], 6)) for event in fold.events]
+    [('resonant grazing', 0.333333), ('end of box', 5.0)]
+    >>> found = vi.Machine.named("two-mass-hammer").curve("grazing", {"frequency": (0.9, 1.3), "b": (0.4, 0.6)})
+    >>> found.kind, [event.kind for event in found.events]
+    ('grazing', ['end of box', 'end of box'])
+    """
+    vary, other = ({numbered(system): path, "from": first, "to": last} for path, first, last in plane(over))
+    return {"label": label, "kind": kind, "vary": vary, "and": other, "orbit": orbit, "event": event, "points": points}
+
+
+@question(Region, "region", (), "regions", threads=True, total=lambda system, task: 2)
+def region(system, label, over, *, grid=24):
+    """Find the regions of a plane of two parameters in which the motion m/n exists and is stable, as closed polygons.
+
+    Orbits are searched on a grid. From each orbit the boundary of its part of the region is followed along the curves of
+    events that form it.
+
+    Parameters
+    ----------
+    system : Oscillator or Machine
+        The system; its values of the two parameters are ignored. A machine must have one coordinate on a spring, forcing of
+        order 1, no friction, and one rigid stop or two on opposite sides.
+    label : str
+        The label "m/n" of the motion.
+    over : mapping
+        Two parameters and their ranges, the abscissa first: {"inverse_beta": (0.4, 2), "gap": (-1, 5)}. With
+        physical units also two of them: {"mass_kg": (0.7, 0.95), "force_n": (10, 60)}. Of a machine paths:
+        {"frequency": (0.5, 1.5), "stop.wall.gap": (0, 2)}.
+    grid : int
+        Number of points of the grid in each direction, 2 to 400. Parts of the region between its points may be missed.
+    {threads}
+    {progress}
+
+    Examples
+    --------
+    >>> from vibroimpact import Oscillator, region
+    >>> osc = Oscillator(inverse_beta=1, gap=0, restitution=0.5)
+    >>> found = region(osc, "1/1", {"inverse_beta": (0.6, 0.9), "gap": (1, 3)}, grid=6)
+    >>> bool(found.stability.contains(0.8, 1.5))
+    True
+    """
+    across, up = ({numbered(system): name, "from": low, "to": high} for name, low, high in plane(over))
+    return {"label": label, "across": across, "up": up, "grid": grid}
+
+
+def _motions(system, task):
+    over = task["over"]
+    return 2 * len(_core.span_values(over) if isinstance(over, str) else over)
+
+
+@question(Response, "response", (), "motions", total=_motions)
+def response(system, vary, over, *, quantity=None, impacts=None):
+    """Compute the response over a number, such as the frequency.
+
+    A sweep with rising values and one with falling values settle the motion at each value from the state of the motion at
+    the value before. The branch of each cycle that they find is followed through its folds and grazing impacts. Orbits on
+    branches that no sweep meets are not found.
+
+    Parameters
+    ----------
+    system : Oscillator or Machine
+        The system; its value of the number that varies is ignored.
+    vary : str
+        "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution"; for an oscillator
+        from `Oscillator.from_units` also a number of the body, such as "frequency_hz", "force_n", "mass_kg" or "gap_m", over which
+        the quantities are in SI units; of a machine the path of a number.
+    over : str or array
+        Its values: a range ("0.5:1.5:201" has 201 values) or an array.
+    quantity : str
+        The quantity that is drawn; all are computed. `Motion.quantities` has the names. Default: "displacement_amplitude", of a
+        machine that of its first coordinate.
+    impacts : int
+        Budget of impacts for the motion at each value, of a machine of events. Motions that have not settled by then are undecided.
+    {progress}
+
+    Examples
+    --------
+    >>> import vibroimpact as vi
+    >>> osc = vi.Oscillator(inverse_beta=1.3, gap=0.5, restitution=0.5)
+    >>> found = vi.response(osc, "gap", "0.5:1.5:11", quantity="impact_speed_max")
+    >>> found.up.label.tolist()[-1], found.down.label.tolist()[-1], len(found.branches)
+    ('1/1', '2/1', 1)
+    >>> vi.Machine.named("two-mass-hammer").response("frequency", "1.1:1.3:3")
+    <Response of q.frame.displacement_amplitude over frequency: 3 values, 1 branch>
+    """
+    return {"vary": vary, "over": sweep(over), "quantity": quantity and quantity.replace("-", "_"), "impacts": impacts}
+
+
+@question(Margins, "margins", START, "margins")
+def margins(system, *, label=None, vary=None, scale=None, within=2.0, lines=None):
+    """Find how far a periodic motion is from the events that end or change it.
+
+    The motion is followed in each number alone, up and down, to the nearest event: a fold, a flip, a grazing impact, the end of a
+    rest. Of an oscillator the largest box of all parameters together is looked for in which the motion is stable. It is found by
+    trying points along lines from its centre, so events between the lines may be missed.
+
+    Parameters
+    ----------
+    {system}
+    {start}
+    label : str
+        "m/n" of the motion instead of a start: the stable orbit, or else the fastest one.
+    vary : sequence of str
+        The numbers that vary; by default all of an oscillator, whose frequency is "beta" or "inverse_beta", and of a machine the
+        parameters of the file, and the numbers that are written as such and are not 0, without directions.
+    scale : dict
+        The change of a parameter of an oscillator that counts as 1 in the box; by default its value.
+    within : float
+        Events are looked for from each value divided by this number to the value times this number, above 1 and up to 100;
+        a restitution from 0 to 1.
+    lines : int
+        Number of lines to scattered points of the surface of the box, besides those to the centres of its faces and to its corners.
+        Default: 200.
+    {progress}
+
+    Examples
+    --------
+    >>> import vibroimpact as vi
+    >>> found = vi.margins(vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5), vary=["gap"])
+    >>> found
+    <Margins of 1/1, nearest flip at gap 1.82901>
+    >>> found.parameters["gap"].up.distance
+    0.32900618968...
+    >>> vi.Machine.named("two-mass-hammer").margins(vary=["omega"])
+    <Margins of 1/1, nearest grazing at omega 1.055>
+    """
+    if isinstance(vary, str):
+        raise TypeError(f'vary = {vary!r} is not a list of numbers, such as ["gap"]')
+    scales, varied = dict(scale or {}), list(vary or [])
+    if isinstance(system, Oscillator):
+        if vary is None and scales:
+            varied = _core.varied_parameters(system._file)
+        for name in scales:
+            if name not in varied:
+                raise QuestionError(f"the scale of {name} has no effect: it does not vary\nhint: vary has its name")
+        varied = [{"parameter": name} | ({"scale": scales[name]} if name in scales else {}) for name in varied]
+    elif scales or lines is not None:
+        raise QuestionError("scale and lines belong to the box, which is not looked for in numbers of a machine")
+    return {"label": label, "vary": varied, "within": float(within), "lines": lines}
+
+
+def _impacts(system, task):
+    before, points = task.get("transient", 1000), task.get("points")
+    whole = before + task.get("impacts", 100_000) + (0 if points is None else before + points)
+    return whole if isinstance(system, Oscillator) else 1
+
+
+@question(Lyapunov, "lyapunov", START, "impacts", total=_impacts)
+def lyapunov(system, *, impacts=None, transient=None, points=None):
+    """Measure the Lyapunov exponents of a motion, with error bars, and the dimension of its attractor.
+
+    Parameters
+    ----------
+    {system}
+    {start}
+    impacts : int
+        Number of impacts of the measurement, 1000 to 1e7, default 100 000; of a machine of events, from 25, default 20 000. The error
+        bar decreases with its square root.
+    transient : int
+        Number of impacts before the measurement, and of forcing periods before the stroboscopic section. Default: 1000.
+    points : int
+        Number of points of each section of the attractor, 1 to 100000; by default no sections.
+    {progress}
+
+    Examples
+    --------
+    >>> import vibroimpact as vi
+    >>> found = vi.lyapunov(vi.Oscillator(inverse_beta=1.11, gap=3, restitution=0.5), impacts=10_000)
+    >>> found.motion.label, found.exponents[0].value > found.exponents[0].error
+    ('chaotic', True)
+    >>> abs(found.sum.value - found.identity) < 1e-9
+    True
+    >>> len(vi.Machine.named("two-mass-hammer").lyapunov(impacts=2000).exponents)
+    4
+    """
+    return {"impacts": impacts, "transient": transient, "points": points}
+
+
+@grid("basin")
+def basin(system, over=None, *, x=None, v=None, phase=None, q=None, qdot=None, refine=None, impacts=None, fields=()):
+    """Find the motion to which each start leads.
+
+    Parameters
+    ----------
+    system : Oscillator or Machine
+        The system. For an oscillator with physical units the starts and the Dataset are nondimensional too; the units are
+        kept in the attributes, and `ds.vibro.si()` converts the Dataset.
+    over : mapping
+        Parameters that vary in addition to the start, with their values. At least one coordinate of the start must vary too.
+        For a machine what varies of the start: {"q.head": "-1:1:9", "phase": "0:6:7"}.
+    x, v, phase : float, str or array
+        Position, velocity and phase of the starts: one number for all starts, a range ("-4:0.75:200" has 200 values) or an
+        array. The first one that varies is the abscissa, the second one the ordinate.
+    q, qdot : array
+        Coordinates and velocities of the starts of a machine, where they do not vary. Default: those of `machine.start`, or 0.
+    refine : int
+        Step K of a coarse grid: every K-th point is computed first, and points between only where their neighbours differ.
+    impacts : int
+        Budget of impacts for each start. Motions that have not settled by then are undecided.
+    fields : sequence of str
+        Quantities of each motion as further variables: ["impact_speed_max", "power"]. `Motion.quantities` has the names.
+    store : path
+        The store for the results; tiles that it already contains are not computed again.
+    client : distributed.Client
+        A Dask client, whose workers fill the store.
+    tile : int
+        Points of a tile along each axis.
+    {threads}
+    {progress}
+
+    Returns
+    -------
+    xarray.Dataset
+        `label` contains codes, which `ds.vibro.labels()` converts to text. `cycle` contains the numbers of the cycles, which
+        the variables `cycle_...` describe.
+
+    Examples
+    --------
+    >>> from vibroimpact import Oscillator, basin
+    >>> ds = basin(Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5), x="-4:0.75:40", v="-4:4:30")
+    >>> dict(ds.sizes)["x"], sorted(set(ds.vibro.labels().values.ravel().tolist()))
+    (40, ['1/1', '2/1'])
+    """
+    of_start = {"x": x, "v": v, "phase": phase}
+    varied = {name: of for name, of in of_start.items() if not (of is None or isinstance(of, (int, float, np.number)))}
+    start = {name: None if of is None else float(of) for name, of in of_start.items() if name not in varied} | {"q": q, "qdot": qdot}
+    task = {"axes": axes({**varied, **(over or {})}), "refine": refine, "impacts": impacts, "fields": names(fields)}
+    return task, start
+
+
+@grid("map")
+def region_map(system, over, *, starts=8, seed=1, refine=None, impacts=None, fields=()):
+    """Find the motions at each point of a plane of parameters.
+
+    Parameters
+    ----------
+    system : Oscillator or Machine
+        The system; its values of the parameters that vary are ignored. Physical units as for `basin`.
+    over : mapping
+        One to four parameters, for a machine the paths of numbers, with their values; the first one is the abscissa:
+        {"inverse_beta": "0.4:2:33", "gap": [0, 1, 2.5]}.
+    starts : int
+        Number of starts at each point: the first at rest, the second on the motion without impacts, the others scattered.
+    seed : int
+        Seed of the sequence of starts.
+    refine : int
+        Step K of a coarse grid: every K-th point is computed first, and points between only where their neighbours differ.
+    impacts : int
+        Budget of impacts for each start. Motions that have not settled by then are undecided.
+    fields : sequence of str
+        Quantities of each motion as further variables, as for `basin`.
+    store, client, tile, threads, progress
+        As for `basin`.
+
+    Returns
+    -------
+    xarray.Dataset
+        `label`, `share`, `speed` and `multiplier` of the motions at each point, the most frequent first.
+
+    Examples
+    --------
+    >>> from vibroimpact import Oscillator, region_map
+    >>> osc = Oscillator(inverse_beta=1, gap=0, restitution=0.5)
+    >>> ds = region_map(osc, {"inverse_beta": "1:1.3:4", "gap": [0.5, 0.75]}, starts=4)
+    >>> ds.vibro.labels().sel(inverse_beta=1.3, gap=0.75, motion=0).item()
+    '2/1'
+    """
+    task = {"axes": axes(over), "starts": starts, "seed": seed, "refine": refine, "impacts": impacts, "fields": names(fields)}
+    return task, {}
+
+
+@grid("diagram")
+def orbit_diagram(
+    system, vary, over, *, also=None, show=None, direction="both", starts=None, seed=None, transient=500, keep=64
+):
+    """Compute the motion after its transient at each value of a parameter, or along a line through two parameters.
+
+    A sweep carries the state: the last state at one value is the start at the next value. Sweeps in both directions show
+    coexisting motions. The points of a motion that repeats are stored once; unused places are nan.
+
+    Parameters
+    ----------
+    system : Oscillator or Machine
+        The system; its value of the parameter that varies is ignored. Physical units as for `basin`. A sweep of a machine begins
+        at `machine.start`.
+    vary : str
+        "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution"; for a
+        machine the path of a number.
+    over : str or array
+        Its values: a range ("0:3:601" has 601 values), or a list or an array of rising or falling values. An array that is evenly
+        spaced to rounding is the range.
+    also : dict
+        A second parameter that varies in proportion to the first, with its values at the first and the last value of
+        `over`: {"gap": (0.5, 1.5)}. It is a second coordinate of the same dimension.
+    show : str
+        "velocity" (default) for the phase of each impact and the speed before it; "strobe" for position and velocity at phase 0.
+        For a machine "speed" (default) for the phase and speed of each closing of a stop; "q.NAME" or "qdot.NAME" for a coordinate
+        or velocity at phase 0.
+    direction : str
+        "up", "down", "both", or "scatter" for several scattered starts at each value.
+    starts, seed : int
+        For "scatter": the number of starts (default 8), and the seed of their sequence (default 1).
+    transient : int
+        Number of impacts ("velocity") or forcing periods ("strobe") before the points shown.
+    keep : int
+        Maximum number of impacts or states shown at each value.
+    store, client, threads, progress
+        As for `basin`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dimensions `sweep` (1 for rising values, -1 for falling values; or `start` for scattered starts), the parameter, and `point`.
+
+    Examples
+    --------
+    >>> from vibroimpact import Oscillator, orbit_diagram
+    >>> ds = orbit_diagram(Oscillator(inverse_beta=1.3, gap=0, restitution=0.5), "gap", "0.5:1:11")
+    >>> ds["velocity"].sel(sweep=1, gap=0.75).dropna("point").size
+    2
+    """
+    known("direction", direction, ("up", "down", "both", "scatter"))
+    if isinstance(system, Oscillator):
+        known("show", show, (None, "velocity", "strobe"))
+    way = direction
+    if direction == "scatter":
+        count, number = whole("starts", 8 if starts is None else starts, STARTS), whole("seed", 1 if seed is None else seed, SEED)
+        way = {"scatter": {"starts": count, "seed": number}}
+    elif starts is not None or seed is not None:
+        raise QuestionError('starts and seed belong to direction="scatter"')
+    second = beside(also)
+    line = second and dict(zip((numbered(system), "from", "to"), (second[0], *interval(second[1]))))
+    show = show or ("velocity" if isinstance(system, Oscillator) else "speed")
+    task = {"vary": vary, "over": sweep(over), "also": line, "show": show, "direction": way, "transient": transient, "keep": keep}
+    return task, {}
+
+
+#: The plans of grids.
+plan_map, plan_basin, plan_diagram = region_map.plan, basin.plan, orbit_diagram.plan
+
+
+@plan_of("lyapunov")
+def plan_lyapunov(
+    system, over, *, x=None, v=None, q=None, qdot=None, phase=None, impacts=None, transient=1000
+):
+    """A plan for all Lyapunov exponents over parameters and coordinates of the start.
+
+    For a machine it is over paths of numbers, "q.COORDINATE", "qdot.COORDINATE" and "phase". They are measured over
+    100 000 impacts of an oscillator and 20 000 events of a machine, if nothing else is given.
+    """
+    start = {"x": x, "v": v, "q": q, "qdot": qdot, "phase": phase}
+    return {"axes": axes(over), "impacts": impacts, "transient": transient}, start
+
+
+@plan_of("attractors")
+def plan_attractors(system, starts, *, seed=1, impacts=None):
+    """A plan for the motion to which each of many scattered starts leads."""
+    return {"starts": starts, "seed": seed, "impacts": impacts}, {}

@@ -1,0 +1,136 @@
+//! The contact of a mass with a spring and a damper: its restitution, times, depths and forces, as JSON, table and figure.
+
+use crate::number::{Number, short};
+use crate::{PROGRAM, Table};
+use schemars::JsonSchema;
+use serde::Serialize;
+use vibroimpact::machine::{Opening, SpringDamper};
+use vibroimpact_plot::{Dash, Figure, FigureAxis, Legend, Line, Panel, SERIES};
+
+/// The points of a curve of the figure.
+const POINTS: u32 = 400;
+/// A contact that never opens is drawn for so many radians of the mass on the spring.
+const DRAWN: f64 = 20.0;
+
+/// The answer to `vibro contact`.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub struct ContactAnswer {
+    /// The speed of approach, to which depths and forces belong.
+    pub speed: f64,
+    /// One for each way to open.
+    pub contacts: Vec<ContactObject>,
+    units: ContactUnits,
+    program: &'static str,
+}
+
+/// A contact.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub struct ContactObject {
+    /// When it opens: `force` or `position`.
+    pub opening: &'static str,
+    /// The quotient of the speeds of separation and approach.
+    pub restitution: f64,
+    /// The damping ratio.
+    pub damping_ratio: f64,
+    /// The mass.
+    pub mass: f64,
+    /// The stiffness.
+    pub stiffness: f64,
+    /// The damping.
+    pub damping: f64,
+    /// The frequency of the mass on the spring.
+    pub frequency: f64,
+    /// The time from closing to opening; `null` if it never opens.
+    pub contact_time: Option<f64>,
+    /// The largest depth.
+    pub depth_max: f64,
+    /// The largest force.
+    pub force_max: f64,
+    /// The depth at which it opens.
+    pub residual_depth: f64,
+    #[serde(skip)]
+    contact: SpringDamper,
+}
+
+/// The units of the numbers.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+struct ContactUnits {
+    mass: &'static str,
+    stiffness: &'static str,
+    damping: &'static str,
+    frequency: &'static str,
+    time: &'static str,
+    length: &'static str,
+    force: &'static str,
+    speed: &'static str,
+}
+
+const SI: ContactUnits = ContactUnits {
+    mass: "kg",
+    stiffness: "N/m",
+    damping: "N s/m",
+    frequency: "Hz",
+    time: "s",
+    length: "m",
+    force: "N",
+    speed: "m/s",
+};
+
+/// The columns of the table.
+const HEADER: &str = "opening,restitution,damping_ratio,mass_kg,stiffness_n_per_m,damping_ns_per_m,frequency_hz,contact_time_s,depth_max_m,force_max_n,residual_depth_m";
+
+impl ContactAnswer {
+    /// The answer for contacts in SI units that are approached at a speed.
+    #[must_use]
+    pub fn new(contacts: &[SpringDamper], speed: f64) -> Self {
+        let object = |contact: &SpringDamper| ContactObject {
+            opening: match contact.opening() {
+                Opening::Force => "force",
+                Opening::Position => "position",
+            },
+            restitution: contact.restitution(),
+            damping_ratio: contact.damping_ratio(),
+            mass: contact.mass(),
+            stiffness: contact.stiffness(),
+            damping: contact.damping(),
+            frequency: contact.frequency() / core::f64::consts::TAU,
+            contact_time: Some(contact.contact_time()).filter(|time| time.is_finite()),
+            depth_max: contact.deepest(speed),
+            force_max: contact.peak_force(speed),
+            residual_depth: contact.residual_depth(speed),
+            contact: *contact,
+        };
+        Self { speed, contacts: contacts.iter().map(object).collect(), units: SI, program: PROGRAM }
+    }
+
+    /// The table that `--csv` writes: a row for each way to open.
+    #[must_use]
+    pub fn table(&self) -> Table<'_> {
+        let row = |of: &ContactObject| {
+            let time = of.contact_time.map_or_else(String::new, |time| Number(time).to_string());
+            let first = [of.restitution, of.damping_ratio, of.mass, of.stiffness, of.damping, of.frequency];
+            let numbers = first.map(|value| Number(value).to_string()).join(",");
+            let last = [of.depth_max, of.force_max, of.residual_depth].map(|value| Number(value).to_string()).join(",");
+            format!("{},{numbers},{time},{last}", of.opening)
+        };
+        Table::new(HEADER.to_owned(), self.contacts.iter().map(row))
+    }
+
+    /// The figure: the force over the depth from closing to opening.
+    #[must_use]
+    pub fn figure(&self) -> Figure {
+        let mut panel = Panel::new(FigureAxis::new("depth (m)"), FigureAxis::new("contact force (N)"));
+        let mut legend = Legend::below();
+        for (of, (colour, dash)) in self.contacts.iter().zip(SERIES.into_iter().zip([Dash::Solid, Dash::Dashed])) {
+            let end = of.contact_time.unwrap_or(DRAWN / of.contact.frequency());
+            let at = |k: u32| of.contact.at(self.speed, end * f64::from(k) / f64::from(POINTS));
+            let (depths, forces): (Vec<f64>, Vec<f64>) = (0..=POINTS).map(at).unzip();
+            let line = Line::new(depths, forces, colour).dash(dash);
+            let text = format!("opens by {}, *ε* = {}", of.opening, short(of.restitution));
+            legend = legend.line(line.stroke, text);
+            panel.add(line);
+        }
+        let approach = format!("approach at {} m/s", short(self.speed));
+        Figure::new(panel).title(approach).legend(legend)
+    }
+}
