@@ -13,7 +13,7 @@ use vibroimpact::regime::ContactState;
 use vibroimpact_report::json::event::of_machine;
 use vibroimpact_study::machine::{CATALOGUE, MachineFileError, MachineProblem, MachineSource, StartText};
 use vibroimpact_study::{
-    Control, Plan, PlanError, Results, Simulated, System, Task, events_with_states, machine, run, tiles,
+    Control, Plan, PlanError, PlanResults, Results, Simulated, System, Task, events_with_states, run, tiles,
 };
 
 /// A machine file that describes a machine.

@@ -1,6 +1,6 @@
 //! The figure of a store, equal to that of the command for the same question.
 
-use crate::answer::machine::machine_title;
+use crate::answer::machine_title;
 use crate::figure::coloured::{self, Coloured, Value, asked_for, place};
 use crate::figure::overlay::Overlay;
 use crate::figure::plane::{Plane, PlaneAxis, Sides, varied};

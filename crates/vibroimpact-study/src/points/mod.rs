@@ -4,11 +4,13 @@
 
 mod drawn;
 mod listed;
+mod many;
 mod over;
 mod rule;
 
 pub use drawn::{DrawnPoints, PointRange};
 pub use listed::ListedColumn;
+pub use many::ManyPlan;
 pub use rule::PointRule;
 
 use crate::axis::none_twice;

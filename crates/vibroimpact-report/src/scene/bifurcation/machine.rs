@@ -3,7 +3,7 @@
 use super::{
     BifurcationDiagram, BranchSystem, FOLLOW, LOOKS, MOST_LABELS, POINTS, SAMPLES, SEED, STARTS, along, most_first,
 };
-use crate::answer::machine::machine_title;
+use crate::answer::machine_title;
 use crate::json::branch::BranchObject;
 use crate::json::event::Stops;
 use crate::{AnswerError, BranchQuantity, ReportError, Units};
@@ -17,8 +17,8 @@ use vibroimpact::verdict::{
 use vibroimpact_study::diagram::Shown as _;
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    BranchPlace, Control, Cut, DiagramPlan, OrbitLine, Plan, Results, RunError, System, Task, machine, machine_label,
-    run,
+    BranchPlace, Control, Cut, DiagramPlan, OrbitLine, Plan, PlanResults, Results, RunError, System, Task,
+    machine_label, run,
 };
 
 /// Starts from which orbits of a given label are searched at each value.
@@ -97,7 +97,7 @@ pub fn machine_bifurcation(
     };
     let known = |label: Label| labels.contains(&label.to_string());
     seeds.iter_mut().for_each(|(_, cycles)| cycles.retain(|(cycle, _)| known(cycle.label)));
-    let Results::Machine(machine::Results::Diagram(behind)) = run(plan, control)? else {
+    let PlanResults::Machine(Results::Diagram(behind)) = run(plan, control)? else {
         // the task of this plan has no other result
         return Err(ReportError::NoLabels.into());
     };

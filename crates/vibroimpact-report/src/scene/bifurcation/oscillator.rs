@@ -14,7 +14,8 @@ use vibroimpact::motion::Strobes;
 use vibroimpact::verdict::{Count, CountedMotion, SettleOptions, Verdict, attractors};
 use vibroimpact_study::diagram::Show;
 use vibroimpact_study::{
-    BranchPlan, Control, Cut, DiagramPlan, Parameter, Plan, PlanError, Results, RunError, Span, Stopped, Target, run,
+    BranchPlan, Control, Cut, DiagramPlan, Parameter, Plan, PlanError, PlanResults, Results, RunError, Span, Stopped,
+    Target, run,
 };
 
 impl BranchSystem for Asked {
@@ -77,7 +78,8 @@ pub fn bifurcation(
             &found[..found.len().min(MOST_LABELS)]
         }
     };
-    let Results::Diagram(behind) = run(&Plan::new(asked.system, plan.clone()), control)? else {
+    let PlanResults::Oscillator(Results::Diagram(behind)) = run(&Plan::new(asked.system, plan.clone()), control)?
+    else {
         // the task of this plan has no other result
         return Err(ReportError::NoLabels.into());
     };
@@ -115,7 +117,9 @@ fn follow(
             let (vary, to, follow, points) = (cut.vary, end, FOLLOW, POINTS);
             let task = BranchPlan { label, vary, to, back: None, also, orbit: None, follow, points };
             match run(&Plan::new(system, task), control) {
-                Ok(Results::Branch(found)) => branches.extend(found.followed.into_iter().map(|branch| branch.points)),
+                Ok(PlanResults::Oscillator(Results::Branch(found))) => {
+                    branches.extend(found.followed.into_iter().map(|branch| branch.points));
+                }
                 Ok(_) => {}
                 Err(RunError::Stopped(stopped)) => return Err(stopped.into()),
                 // an absent orbit is no error: the label exists only on a part of the line
@@ -226,7 +230,9 @@ mod tests {
             lines.flat_map(|line| line.ys.clone()).filter(|y| !y.is_nan()).collect()
         };
         let behind = Plan::new(asked.system, strobes.clone());
-        let Results::Diagram(behind) = run(&behind, &control).unwrap() else { panic!("another result") };
+        let PlanResults::Oscillator(Results::Diagram(behind)) = run(&behind, &control).unwrap() else {
+            panic!("another result")
+        };
         let positions: Vec<f64> = behind
             .steps
             .iter()
