@@ -21,6 +21,7 @@ use core::fmt::Debug;
 use std::borrow::Cow;
 use vibroimpact::Label;
 use vibroimpact::continuation::CurveEvent;
+use vibroimpact::edge::Bordered;
 use vibroimpact::orbit::Stability;
 use vibroimpact::verdict::{Census, SettleOptions, Settled, System, Verdict};
 
@@ -36,9 +37,9 @@ pub trait Dynamics: Clone + Debug {
     /// What an orbit diagram shows of a motion.
     type Shown: Shown + Into<ShowText> + for<'a> TryFrom<&'a ShowText, Error = PlanError>;
     /// The system.
-    type System: System;
+    type System: Bordered<Start = Self::Start>;
     /// Where a motion starts.
-    type Start: Clone + Debug;
+    type Start: Clone + Debug + PartialEq;
     /// An event of a motion.
     type Event: Clone + Debug;
     /// The points of an attractor in two sections.
@@ -83,6 +84,17 @@ pub trait Dynamics: Clone + Debug {
 
     /// The result of a task over a grid or over points.
     fn over_grid(of: &Setup<'_, Self>, task: &Task, control: &Control<'_>) -> Result<Results<Self>, RunError>;
+
+    /// A start with another value of a coordinate.
+    fn placed(
+        system: &Self::System,
+        start: Self::Start,
+        coordinate: &Self::Coordinate,
+        value: f64,
+    ) -> Result<Self::Start, PlanError>;
+
+    /// A start, if it is allowed.
+    fn allowed(system: &Self::System, start: Self::Start) -> Result<Self::Start, PlanError>;
 
     /// The value of a number.
     fn number(&self, name: &Self::Name) -> Result<f64, PlanError>;
