@@ -7,6 +7,7 @@ pub mod branch;
 mod certainty;
 pub mod curve;
 pub mod diagram;
+pub(crate) mod edge;
 pub mod event;
 pub mod lyapunov;
 pub mod map;
@@ -19,7 +20,7 @@ pub mod response;
 mod schema;
 pub mod settle;
 pub mod simulate;
-mod system;
+pub(crate) mod system;
 
 use crate::units::given;
 use crate::{Asked, PROGRAM, Units, Varied};

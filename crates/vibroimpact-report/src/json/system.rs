@@ -7,11 +7,11 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 use vibroimpact::machine::Machine;
 use vibroimpact::{Oscillator, Side};
-use vibroimpact_study::{FramePlan, Parameter, PhysicalPlan};
+use vibroimpact_study::{FramePlan, Parameter};
 
 /// A system.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct SystemObject<'a> {
+pub struct SystemObject<'a> {
     kind: &'static str,
     name: &'a str,
     coordinates: Vec<&'a str>,
@@ -39,10 +39,10 @@ impl Scales {
     fn new(units: &Units) -> Option<Self> {
         let scales = units.scales?;
         Some(Self {
-            length_m: scales.length_m,
-            time_s: scales.time_s,
-            mass_kg: scales.mass_kg,
-            velocity_m_per_s: scales.velocity_m_per_s(),
+            length_m: scales.length,
+            time_s: scales.time,
+            mass_kg: scales.mass,
+            velocity_m_per_s: scales.velocity(),
             frame: units.frame,
         })
     }
@@ -50,7 +50,7 @@ impl Scales {
 
 impl<'a> SystemObject<'a> {
     /// An oscillator. Numbers that vary have no value: they are left out.
-    pub(super) fn of_oscillator(asked: &Asked, osc: &Oscillator, varied: &[Parameter]) -> Self {
+    pub(crate) fn of_oscillator(asked: &Asked, osc: &Oscillator, varied: &[Parameter]) -> Self {
         let stops = osc.stops().map(|(at, _)| side(at)).collect();
         let numbers = of_body(asked, varied).unwrap_or_else(|| of_parameters(asked, osc, varied));
         let scales = Scales::new(&asked.units);
@@ -58,7 +58,7 @@ impl<'a> SystemObject<'a> {
     }
 
     /// A machine with the name under which it was asked for.
-    pub(super) fn of_machine(name: &'a str, machine: &'a Machine) -> Self {
+    pub(crate) fn of_machine(name: &'a str, machine: &'a Machine) -> Self {
         Self {
             kind: "machine",
             name,
@@ -93,11 +93,8 @@ fn of_parameters(asked: &Asked, osc: &Oscillator, varied: &[Parameter]) -> Map<S
 /// The numbers of a body in physical units that do not vary; `None` if none of them varies. One that varies may determine several
 /// parameters of the oscillator, so these are not listed then.
 fn of_body(asked: &Asked, varied: &[Parameter]) -> Option<Map<String, Value>> {
-    let numbers = varied.iter().filter_map(|parameter| match parameter {
-        Parameter::Physical(number) => Some(*number),
-        _ => None,
-    });
-    let mut body = PhysicalPlan::from(asked.system.machine.as_ref()?);
+    let numbers = varied.iter().filter_map(|parameter| parameter.of_body());
+    let mut body = asked.system.body?;
     let mut any = false;
     for number in numbers {
         body.set(number, None);
