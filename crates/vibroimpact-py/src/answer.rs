@@ -7,7 +7,7 @@ use crate::error::Trouble;
 use crate::events::{EventFields, Events};
 use crate::machine::{MachineFile, Start, start};
 use crate::oscillator::{OscillatorFile, ScalesOf, scales};
-use crate::plan::{read, text};
+use crate::plan::{PlanFields, fields, read, text};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -153,12 +153,12 @@ impl<'py> ResponseFields<'py> {
     /// Of an oscillator, over a number of a body in SI units in these units, because the nondimensional ones may change from value
     /// to value.
     fn of_oscillator(py: Python<'py>, found: &ResponseCurves, vary: Parameter, system: &SystemPlan) -> PyResult<Self> {
-        let physical = matches!(vary, Parameter::Physical(_));
+        let physical = matches!(vary, Parameter::Body(_));
         let units = Quantity::ALL.map(|of| if physical { of.kind().unit() } else { "" }).to_vec();
         Self::new(py, found, units, |row, k| {
             let there = if physical { system.with(vary, row.value).ok() } else { None };
             let scales = there.and_then(|system| system.scales());
-            row.quantities[k] * scales.map_or(1.0, |scales| Quantity::ALL[k].kind().in_si(&scales))
+            row.quantities[k] * scales.map_or(1.0, |scales| Quantity::ALL[k].kind().scale(&scales))
         })
     }
 }
@@ -191,16 +191,16 @@ fn planned(system: &System<'_>, from: Option<Start>, text: &str, tile: Option<u3
     Ok(plan)
 }
 
-/// The plan of a task, which is JSON, for a system, as JSON.
+/// The plan of a task, which is JSON, for a system.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)] // arguments from Python
-pub(crate) fn plan_json(
+pub(crate) fn plan_of(
     system: System<'_>,
     from: Option<Start>,
     task: &str,
     tile: Option<u32>,
-) -> Result<String, Trouble> {
-    text(&planned(&system, from, task, tile)?)
+) -> Result<PlanFields, Trouble> {
+    fields(&planned(&system, from, task, tile)?.canonical()?)
 }
 
 /// A plan with its result.
@@ -304,8 +304,8 @@ impl Answer {
                 only(changed, number);
             }
             if let (vibroimpact_report::Answer::Oscillator(of), Some(units)) = (&mut *changed, units) {
-                let machine = of.written.machine;
-                of.units = Units { scales: Some(scales(units)), si: true, machine, ..Units::default() };
+                let body = of.written.body;
+                of.units = Units { scales: Some(scales(units)), si: true, body, ..Units::default() };
             }
             if let (Task::Response(task), Some(quantity)) = (&mut changed.plan_mut().task, quantity) {
                 task.quantity = Some(quantity);

@@ -89,27 +89,30 @@ pub enum PlanError {
         /// All coordinates.
         coordinates: String,
     },
-    /// A number of a machine in two forms.
+    /// A number of a body in two forms.
     #[error("{0} and {1} are two forms of one number, and both are given")]
-    PhysicalTwice(&'static str, &'static str),
+    TwoForms(&'static str, &'static str),
     /// A stop that moves by itself, and a base that moves too.
     #[error("the motion of the stop is given, and a base that moves: a stop moves with its base or is fixed in space")]
     StopAndBase,
-    /// A system whose numbers are not those of its machine.
+    /// A number of a body, but the system is an oscillator without units.
+    #[error("{0} is a number of a body in SI units, and the system is nondimensional")]
+    NoBody(&'static str),
+    /// A system whose numbers are not those of its body.
     #[error(
-        "{name} = {given} of the system is not that of its machine, {own}\nhint: leave the nondimensional numbers out"
+        "{name} = {given} of the system is not that of its body, {own}\nhint: leave the nondimensional numbers out"
     )]
-    NotOfPhysical {
+    NotOfBody {
         /// The name of the number.
         name: &'static str,
         /// The number that is given.
         given: f64,
-        /// That of the machine.
+        /// That of the body.
         own: f64,
     },
-    /// A number of a machine as the side of a plane of parameters.
+    /// A number of a body as the side of a plane of parameters.
     #[error(
-        "{0} and {1} do not span a plane: {0} is measured in units that change with the numbers of the machine\nhint: take frequency_hz, gap_m or second_gap_m instead of {0}"
+        "{0} and {1} do not span a plane: {0} is measured in units that change with the numbers of the body\nhint: take frequency_hz, gap_m or second_gap_m instead of {0}"
     )]
     MixedPlane(&'static str, &'static str),
     /// A text that cannot be read as a plan.

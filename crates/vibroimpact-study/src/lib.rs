@@ -32,7 +32,7 @@
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 //! | machines as they are written, and their catalogue | [`machine`] |
-//! | an oscillator in SI units; the units of a plan | [`PhysicalPlan`], [`UnitsPlan`] |
+//! | an oscillator in SI units; the units of a plan | [`Body`], [`UnitsPlan`] |
 //! | the quantities of a motion that a plan asks for | [`Quantity`], `quantity` |
 
 pub mod axis;
@@ -59,7 +59,6 @@ mod margins;
 mod name;
 mod orbit_line;
 mod parameter;
-mod physical;
 mod plan;
 mod plan_text;
 mod points;
@@ -97,6 +96,7 @@ pub use field::{Column, Extra, Field, NumberType};
 pub use grid::{Block, Dimension, Grid, number, place};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan, SectionPoints};
+pub use machine::{Body, BodyNumber};
 pub use map::{MapPlan, RegionMap, Share};
 pub use margins::{
     BoxEdge, DEFAULT_LINES, DEFAULT_WITHIN, Loss, MarginEnd, MarginsPlan, MotionBox, MotionMargins, ParameterMargin,
@@ -104,8 +104,7 @@ pub use margins::{
 };
 pub use name::{Name, Variable};
 pub use orbit_line::{Along, BranchPlace, OrbitLine, Solution};
-pub use parameter::{Parameter, is_length};
-pub use physical::PhysicalPlan;
+pub use parameter::{Parameter, is_length, parameter_names};
 pub use plan::Plan;
 pub use plan_text::is_machine_plan;
 pub use points::{DrawnPoints, ListedColumn, ManyPlan, PointRange, PointRule, PointsPlan};

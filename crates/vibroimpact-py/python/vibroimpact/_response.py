@@ -1,5 +1,7 @@
 """A quantity of all motions over one parameter: branches, stable or not, and the motions of sweeps up and down."""
 
+from __future__ import annotations
+
 import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -63,7 +65,7 @@ class Response(View):
     branches : list of ResponseCurve
         The branches on which their cycles lie.
     units : dict of str
-        The unit of each quantity; those of SI over a number of a machine.
+        The unit of each quantity; those of SI over a number of a body.
     plan : str
         The plan as JSON.
     """

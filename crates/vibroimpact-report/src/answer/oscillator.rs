@@ -16,16 +16,16 @@ use crate::json::system::SystemObject;
 use crate::response::ResponseView;
 use crate::scene::{BifurcationDiagram, View, Viewed, phase_portrait, strobes};
 use crate::{AnswerError, Asked, ReportError, ShownValue as _, Table, Units, figure, table};
+use vibroimpact::Start;
 use vibroimpact::chaos::{Exponents, Section};
 use vibroimpact::continuation::SolutionPoint;
 use vibroimpact::motion::Event;
 use vibroimpact::verdict::{Census, Settled, Verdict};
-use vibroimpact::{Parameter, Start};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::diagram::Show;
 use vibroimpact_study::{
-    Basin, Branches, CurvePlan, Cut, EventCurve, Name as _, Orbit, PlanError, ResponseCurves, Simulated, SystemPlan,
-    Task,
+    Basin, Branches, CurvePlan, Cut, EventCurve, Name as _, Orbit, Parameter, PlanError, ResponseCurves, Simulated,
+    SystemPlan, Task,
 };
 
 impl AnswerOf<SystemPlan> {
@@ -183,7 +183,7 @@ mod tests {
         restitution: 0.5,
         damping: 0.0,
         second_stop: None,
-        machine: None,
+        body: None,
     };
 
     #[test]

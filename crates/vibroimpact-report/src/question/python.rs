@@ -1,13 +1,12 @@
 //! A plan as a call of the Python package.
 
-use super::machine::{numbers_of, without_unit};
+use super::body::{numbers_of, without_unit};
 use super::number;
 use crate::scene::{SECTION_POINTS, View};
-use vibroimpact::DrivenOscillator;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{
-    Axis, BasinPlan, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan,
-    MapPlan, MarginsPlan, PhysicalPlan, Plan, Quantity, RegionPlan, ResponsePlan, StartPlan, Stretch, SystemPlan,
+    Axis, BasinPlan, Body, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan,
+    LyapunovPlan, MapPlan, MarginsPlan, Plan, Quantity, RegionPlan, ResponsePlan, StartPlan, Stretch, SystemPlan,
     Target, Task, Values,
 };
 
@@ -158,18 +157,18 @@ impl Call {
     }
 }
 
-/// A machine in SI units.
-fn machine(machine: &DrivenOscillator) -> String {
-    let given = numbers_of(machine)
+/// A body in SI units.
+fn in_si(body: &Body) -> String {
+    let given = numbers_of(body)
         .into_iter()
         .filter_map(|(name, value)| Some(format!("{}={}", without_unit(name), number(value?))));
-    let space = PhysicalPlan::from(machine).stop_in_space.then(|| "stop_in_space=True".to_owned());
+    let space = body.stop_in_space.then(|| "stop_in_space=True".to_owned());
     format!("vi.Oscillator.from_units({})", given.chain(space).collect::<Vec<_>>().join(", "))
 }
 
 fn oscillator(system: &SystemPlan) -> String {
-    if let Some(of) = &system.machine {
-        return machine(of);
+    if let Some(body) = &system.body {
+        return in_si(body);
     }
     let second = system.second_stop;
     let parts = [
