@@ -14,13 +14,13 @@ use vibroimpact::math::sort_by;
 use vibroimpact_report::json::map::{LabelCount, of_points};
 use vibroimpact_report::number::{Number, percent};
 use vibroimpact_report::table::diagram;
-use vibroimpact_report::{PROGRAM, Units};
+use vibroimpact_report::{PROGRAM, Told, Units};
 use vibroimpact_store::{Store, StoreError};
-use vibroimpact_study::machine::MachineSource;
+use vibroimpact_study::diagram::ShowText;
 use vibroimpact_study::study::{Along, NO_MOTION, NOT_COMPUTED, REFUSED, UNDECIDED, label_of};
 use vibroimpact_study::{
-    Axis, BasinPlan, Block, Column, Dimension, Dynamics, Field, Plan, PlanError, PointsPlan, Quantity, System,
-    SystemPlan, Task, Values, Variable, typed_axes,
+    Axis, BasinPlan, Block, Column, DiagramPlan, Dimension, Field, Plan, PlanError, PointsPlan, Quantity, System, Task,
+    Values, Variable, typed_axes,
 };
 
 /// A JSON object about a store.
@@ -159,6 +159,20 @@ fn column_of(dimension: &Dimension, plan: &Plan) -> String {
     axis.map_or_else(|| dimension.name.clone(), |axis| Units::of_plan(plan).column_of_coordinate(axis.vary).to_owned())
 }
 
+/// Writes the table of an orbit diagram.
+fn of_diagram<D: Told>(
+    store: &Store,
+    system: &D,
+    task: &DiagramPlan<Variable, ShowText>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let columns: Result<Vec<Column>, _> = (0..store.study().fields().len()).map(|k| store.column(k)).collect();
+    let found = D::diagram_of(&task.typed().map_err(io::Error::other)?, &columns.map_err(io::Error::other)?);
+    let setup = system.setup_of(&store.plan().task).map_err(io::Error::other)?;
+    let table = diagram::table(&found, &setup.system, Units::of_plan(store.plan()));
+    table.map_err(io::Error::other)?.write(out)
+}
+
 /// The fields of a short table, which are those of the command without a store.
 const SHORT: [&str; 2] = ["label", "share"];
 
@@ -166,21 +180,12 @@ const SHORT: [&str; 2] = ["label", "share"];
 ///
 /// For an orbit diagram the table is that of `vibro diagram`.
 pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Result<()> {
-    let columns = || (0..store.study().fields().len()).map(|k| store.column(k)).collect::<Result<Vec<_>, _>>();
     let plan = store.plan();
-    match (&plan.system, &plan.task) {
-        (System::Oscillator(system), Task::Diagram(task)) => {
-            let task = task.typed().map_err(io::Error::other)?;
-            let found = SystemPlan::diagram_of(&task, &columns().map_err(io::Error::other)?);
-            return diagram::table(&found, system, Units::of_plan(plan)).map_err(io::Error::other)?.write(out);
-        }
-        (System::Machine(machine), Task::Diagram(task)) => {
-            let task = task.typed().map_err(io::Error::other)?;
-            let found = MachineSource::diagram_of(&task, &columns().map_err(io::Error::other)?);
-            let (machine, _) = machine.described().map_err(io::Error::other)?;
-            return diagram::table(&found, &machine, Units::default()).map_err(io::Error::other)?.write(out);
-        }
-        _ => {}
+    if let Task::Diagram(task) = &plan.task {
+        return match &plan.system {
+            System::Oscillator(system) => of_diagram(store, system, task, out),
+            System::Machine(machine) => of_diagram(store, &**machine, task, out),
+        };
     }
     let (study, all) = (store.study(), store.study().fields());
     let units = Units::of_plan(plan);

@@ -12,7 +12,7 @@ use vibroimpact::orbit::Cycle;
 use vibroimpact::quantities::{Segment, cycle_segments};
 use vibroimpact::{Oscillator, Side, Start};
 use vibroimpact_study::machine::contact_word;
-use vibroimpact_study::{SystemPlan, stop_number};
+use vibroimpact_study::stop_number;
 
 /// The name of a stop of an oscillator.
 #[must_use]
@@ -29,20 +29,9 @@ pub trait Stops {
     fn name_of_stop(&self, stop: usize) -> &str;
 }
 
-/// The name of a stop of an oscillator by its number.
-const fn name_of(stop: usize) -> &'static str {
-    side(if stop == stop_number(Side::Upper) { Side::Upper } else { Side::Lower })
-}
-
 impl Stops for Oscillator {
     fn name_of_stop(&self, stop: usize) -> &str {
-        name_of(stop)
-    }
-}
-
-impl Stops for SystemPlan {
-    fn name_of_stop(&self, stop: usize) -> &str {
-        name_of(stop)
+        side(if stop == stop_number(Side::Upper) { Side::Upper } else { Side::Lower })
     }
 }
 

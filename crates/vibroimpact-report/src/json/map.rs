@@ -1,10 +1,11 @@
 //! The labels of a map and their frequencies, and the motions at its points.
 
-use super::event::Stops;
+use super::event::{StateObject, Stops};
+use super::system::SystemObject;
 use super::{AxisObject, Document};
 use crate::units::shown;
 use crate::varied::units_over;
-use crate::{Asked, FieldName, Units, Varied};
+use crate::{Asked, FieldName, PROGRAM, Units, Varied};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -161,7 +162,9 @@ pub fn of_points<'a>(
     let varied: Vec<Parameter> = varied.iter().filter_map(of_system).collect();
     let start = task.start.unwrap_or_default();
     let start = Start { x: start.x.unwrap_or_else(|| Start::at_rest(&osc).x), v: start.v, phase: start.phase };
-    Ok(Document::over(&asked, &osc, &varied, plan, answer).start(&start, &units))
+    let system = SystemObject::of_oscillator(&asked, &osc, &varied);
+    let start = Some(StateObject::of_oscillator(&start, &units));
+    Ok(Document { system, start, units: Some(units.name()), result: answer, plan, program: PROGRAM })
 }
 
 /// Labels in the order of a legend, then by name.

@@ -23,13 +23,12 @@ pub mod simulate;
 pub(crate) mod system;
 
 use crate::units::given;
-use crate::{Asked, PROGRAM, Units, Varied};
+use crate::{Units, Varied};
 use event::StateObject;
 use schemars::JsonSchema;
 use serde::Serialize;
 use system::SystemObject;
-use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::{Axis, Cut, Parameter, Plan, Span, Stretch, Values};
+use vibroimpact_study::{Axis, Cut, Span, Stretch, Values};
 
 /// The object that a command prints: the system, the start, the fields of the command, and the plan.
 #[derive(JsonSchema, Serialize)]
@@ -46,19 +45,6 @@ struct Document<'a, T, P> {
     #[schemars(with = "serde_json::Map<String, serde_json::Value>")]
     plan: &'a P,
     program: &'static str,
-}
-
-impl<'a, T: Serialize> Document<'a, T, Plan> {
-    /// An object of an oscillator with the fields of the command, over parameters that vary.
-    fn over(asked: &Asked, osc: &Oscillator, varied: &[Parameter], plan: &'a Plan, result: T) -> Self {
-        let system = SystemObject::of_oscillator(asked, osc, varied);
-        Self { system, start: None, result, units: Some(asked.units.name()), plan, program: PROGRAM }
-    }
-
-    /// Adds the start of the motion.
-    fn start(self, start: &Start, units: &Units) -> Self {
-        Self { start: Some(StateObject::of_oscillator(start, units)), ..self }
-    }
 }
 
 /// `A:B:N` as an object, in the units of the results.

@@ -29,10 +29,10 @@ impl OscillatorBasin {
     pub(super) fn stored_fields(&self, label: &Field) -> Vec<Field> {
         let quantities = self.asked().iter().map(|quantity| quantity::field(*quantity, Vec::new()));
         let mut fields: Vec<Field> = quantities.collect();
-        let number = |name: &'static str, long_name: &'static str| Field {
+        let number = |name: &'static str, long_name: &'static str, unit| Field {
             name: name.into(),
             long_name: long_name.into(),
-            unit: Unit::NUMBER,
+            unit,
             kind: NumberType::F64,
             flags: Vec::new(),
             comment: "",
@@ -42,26 +42,17 @@ impl OscillatorBasin {
             fields.push(reason::field());
         }
         if self.of_systems() {
-            fields.extend(MULTIPLIERS.map(|(name, long_name, _)| number(name, long_name)));
+            fields.extend(MULTIPLIERS.map(|(name, long_name, _)| number(name, long_name, Unit::NUMBER)));
         }
         if self.transient() {
             let long_name = "impacts until the motion was decided";
             let flags = vec![(NOT_COMPUTED, "not_computed"), (-1, "taken_from_agreeing_neighbours")];
-            fields.push(Field { kind: NumberType::I32, flags, ..number("transient", long_name) });
+            fields.push(Field { kind: NumberType::I32, flags, ..number("transient", long_name, Unit::NUMBER) });
         }
         if let Starts::Scattered { .. } = self.starts {
-            let coordinate = |name: &'static str, long_name: &'static str, unit| Field {
-                name: name.into(),
-                long_name: long_name.into(),
-                unit,
-                kind: NumberType::F64,
-                flags: Vec::new(),
-                comment: "",
-                ..label.clone()
-            };
-            fields.push(coordinate("x", "position of the start", Unit::LENGTH));
-            fields.push(coordinate("v", "velocity of the start", Unit::VELOCITY));
-            fields.push(coordinate("phase", "phase of the force at the start", Unit::ANGLE));
+            fields.push(number("x", "position of the start", Unit::LENGTH));
+            fields.push(number("v", "velocity of the start", Unit::VELOCITY));
+            fields.push(number("phase", "phase of the force at the start", Unit::ANGLE));
         }
         fields
     }
