@@ -14,7 +14,7 @@ use vibroimpact::regime::ContactState;
 use vibroimpact_report::json::event::of_machine;
 use vibroimpact_study::machine::{CATALOGUE, MachineFileError, MachineProblem, MachineSource, StartText};
 use vibroimpact_study::{
-    Control, Plan, PlanError, Results, Simulated, System, Task, events_with_states, machine, run, tiles,
+    Control, Plan, PlanError, PlanResults, Results, Simulated, System, Task, events_with_states, run, tiles,
 };
 
 /// A machine file that describes a machine.
@@ -296,7 +296,7 @@ pub(crate) fn simulate_machines<'py>(
         let plan =
             Plan::new(there.starting(start), Task::Simulate { start: None, impacts: limits.0, periods: limits.1 });
         match run(&plan, control)? {
-            Results::Machine(machine::Results::Simulate(found)) => Ok(found),
+            PlanResults::Machine(Results::Simulate(found)) => Ok(found),
             _ => Err(Trouble::Defect("following machines")),
         }
     })?;

@@ -16,9 +16,8 @@
 //! | the numbers of a table by path | `written` |
 //! | modes from a table of numbers | `modes` |
 //! | some of its numbers varied | `varied` |
-//! | where a machine begins | [`StartText`], [`StartNumbers`], `start` |
+//! | where a machine begins | [`StartText`], [`StartNumbers`], `start`, `start_axis`, `starting` |
 //! | named machines of the literature | [`CATALOGUE`], `catalogue` |
-//! | the results of tasks | [`Results`] |
 //! | errors | [`MachineFileError`], [`MachineProblem`] |
 
 mod back;
@@ -34,13 +33,14 @@ mod read;
 mod shapes;
 mod source;
 mod start;
+mod start_axis;
+mod starting;
 mod structure;
 mod text;
 mod varied;
 mod write;
 mod written;
 
-pub use crate::machine_plan::Results;
 pub use catalogue::{CATALOGUE, CatalogueEntry};
 pub use error::{MachineFileError, MachineProblem};
 pub use expression::ExpressionError;
@@ -50,6 +50,7 @@ pub use read::no_files;
 pub use shapes::{MatrixText, VectorText};
 pub use source::MachineSource;
 pub use start::{ContactText, ContactWord, StartNumbers, StartText, contact_word};
+pub(crate) use start_axis::StartAxis;
 pub use text::{
     ForceText, FrictionText, ImpactsText, LinkText, ModeText, MotionText, OpeningText, StopText, WrittenMachine,
 };
