@@ -11,7 +11,7 @@ use clap::parser::ValueSource;
 const OF_ONE_SYSTEM: [&str; 7] = ["attractors", "basin", "orbit", "branch", "curve", "diagram", "region"];
 /// Commands in which at least one parameter has a range.
 const OF_RANGES: [&str; 2] = ["map", "response"];
-/// Short names of numbers of a machine that may have a range there, besides the names of parameters.
+/// Short names of numbers of a body that may have a range there, besides the names of parameters.
 const SHORT: [&str; 3] = ["mass", "stiffness", "frequency"];
 
 /// Flags any one of which gives a quantity, and how the parser writes them.

@@ -72,7 +72,7 @@ fn coordinate(name: &str) -> Result<Coordinate, String> {
         let shown: String = name.trim().chars().take(60).collect();
         format!(
             "the column `{shown}` is no parameter and no coordinate of a start\n\
-            hint: beta, inverse_beta, gap, restitution, damping, second_gap, second_restitution, x, v, phase, or a number of the machine, such as gap_m"
+            hint: beta, inverse_beta, gap, restitution, damping, second_gap, second_restitution, x, v, phase, or a number of the body, such as gap_m"
         )
     })
 }

@@ -153,12 +153,12 @@ impl<'py> ResponseFields<'py> {
     /// Of an oscillator, over a number of a body in SI units in these units, because the nondimensional ones may change from value
     /// to value.
     fn of_oscillator(py: Python<'py>, found: &ResponseCurves, vary: Parameter, system: &SystemPlan) -> PyResult<Self> {
-        let physical = matches!(vary, Parameter::Physical(_));
+        let physical = matches!(vary, Parameter::Body(_));
         let units = Quantity::ALL.map(|of| if physical { of.kind().unit() } else { "" }).to_vec();
         Self::new(py, found, units, |row, k| {
             let there = if physical { system.with(vary, row.value).ok() } else { None };
             let scales = there.and_then(|system| system.scales());
-            row.quantities[k] * scales.map_or(1.0, |scales| Quantity::ALL[k].kind().in_si(&scales))
+            row.quantities[k] * scales.map_or(1.0, |scales| Quantity::ALL[k].kind().scale(&scales))
         })
     }
 }
@@ -304,8 +304,8 @@ impl Answer {
                 only(changed, number);
             }
             if let (vibroimpact_report::Answer::Oscillator(of), Some(units)) = (&mut *changed, units) {
-                let machine = of.written.machine;
-                of.units = Units { scales: Some(scales(units)), si: true, machine, ..Units::default() };
+                let body = of.written.body;
+                of.units = Units { scales: Some(scales(units)), si: true, body, ..Units::default() };
             }
             if let (Task::Response(task), Some(quantity)) = (&mut changed.plan_mut().task, quantity) {
                 task.quantity = Some(quantity);

@@ -45,7 +45,7 @@ mod _core {
     use crate::palette::{look_of, palette};
     #[pymodule_export]
     use crate::plan::{
-        checked_plan, coordinate_words, fixed_coordinates, machine_parameters, plan_schema, point_coordinates,
+        body_parameters, checked_plan, coordinate_words, fixed_coordinates, plan_schema, point_coordinates,
         scales_of_points,
     };
     #[pymodule_export]

@@ -5,7 +5,7 @@ use crate::plan::text;
 use pyo3::prelude::*;
 use std::collections::HashMap;
 use vibroimpact::{Scales, Side};
-use vibroimpact_study::{PhysicalPlan, SecondStop, SystemPlan};
+use vibroimpact_study::{Body, SecondStop, SystemPlan};
 
 /// An oscillator as it is given: its nondimensional numbers, or those of a body in SI units.
 #[pyclass(frozen, from_py_object, module = "vibroimpact._core")]
@@ -20,7 +20,7 @@ pub(crate) type ScalesOf = (f64, f64, f64);
 
 /// The units with these sizes.
 pub(crate) const fn scales((length_m, time_s, mass_kg): ScalesOf) -> Scales {
-    Scales { length_m, time_s, mass_kg }
+    Scales { length: length_m, time: time_s, mass: mass_kg }
 }
 
 /// The numbers of an oscillator, and what follows from them.
@@ -56,7 +56,7 @@ impl OscillatorFile {
         second: Option<(f64, f64)>,
     ) -> Result<Self, Trouble> {
         let second_stop = second.map(|(gap, restitution)| SecondStop { gap, restitution });
-        Self::checked(SystemPlan { beta, inverse_beta, gap, restitution, damping, second_stop, machine: None })
+        Self::checked(SystemPlan { beta, inverse_beta, gap, restitution, damping, second_stop, body: None })
     }
 
     /// Of the numbers of a body by their names in SI units.
@@ -69,9 +69,8 @@ impl OscillatorFile {
         let mut fields: serde_json::Map<String, serde_json::Value> =
             numbers.into_iter().map(|(name, value)| (name, value.into())).collect();
         fields.insert("stop_in_space".to_owned(), stop_in_space.into());
-        let body: PhysicalPlan =
-            serde_json::from_value(fields.into()).map_err(|error| Trouble::question(error.to_string()))?;
-        Self::checked(SystemPlan::of_machine(body.driven()?)?)
+        let body: Body = serde_json::from_value(fields.into()).map_err(|error| Trouble::question(error.to_string()))?;
+        Self::checked(SystemPlan::of_body(&body)?)
     }
 
     /// Of the system of a plan, which is JSON.
@@ -110,6 +109,6 @@ impl OscillatorFile {
 
     /// The units of a body.
     fn scales(&self) -> Option<ScalesOf> {
-        self.plan.scales().map(|of| (of.length_m, of.time_s, of.mass_kg))
+        self.plan.scales().map(|of| (of.length, of.time, of.mass))
     }
 }

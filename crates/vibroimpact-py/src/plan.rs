@@ -6,8 +6,9 @@ use crate::simulate::{StartArgument, start_plan};
 use pyo3::prelude::*;
 use serde::Serialize;
 use std::collections::HashMap;
-use vibroimpact::PhysicalParameter;
-use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, PlanError, StartPlan, SystemPlan, Task, Variable};
+use vibroimpact_study::{
+    Axis, BodyNumber, Coordinate, Parameter, Plan, PlanError, StartPlan, SystemPlan, Task, Variable,
+};
 
 /// The plan of a text, in the form in which it is stored.
 pub(crate) fn read(text: &str) -> Result<Plan, Trouble> {
@@ -58,7 +59,7 @@ pub(crate) fn checked_plan(given: &str) -> Result<PlanFields, Trouble> {
     fields(&read(given)?)
 }
 
-/// The units of length, time and mass of a machine, the system of a plan as JSON, at points: columns of values of some of
+/// The units of length, time and mass of a body, the system of a plan as JSON, at points: columns of values of some of
 /// its parameters. Points that are no machine have not-a-number.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)] // arguments from Python
@@ -74,26 +75,20 @@ pub(crate) fn scales_of_points(
     for k in 0..values.first().map_or(0, Vec::len) {
         let there = system.with_all(parameters.iter().copied().zip(values.iter().map(|column| column[k])));
         let of = (there.ok().and_then(|there| there.scales()))
-            .map_or([f64::NAN; 3], |scales| [scales.length_m, scales.time_s, scales.mass_kg]);
+            .map_or([f64::NAN; 3], |scales| [scales.length, scales.time, scales.mass]);
         found.iter_mut().zip(of).for_each(|(column, value)| column.push(value));
     }
     Ok(found)
 }
 
-/// The parameters that are numbers of a machine, by name: their descriptions with units, for the axes of figures.
+/// The parameters that are numbers of a body, by name: their descriptions with units, for the axes of figures.
 #[pyfunction]
-pub(crate) fn machine_parameters() -> HashMap<&'static str, String> {
-    let text = |parameter: PhysicalParameter| match parameter.unit() {
+pub(crate) fn body_parameters() -> HashMap<&'static str, String> {
+    let text = |parameter: BodyNumber| match parameter.unit() {
         "" => parameter.description().to_owned(),
         unit => format!("{} ({unit})", parameter.description()),
     };
-    PhysicalParameter::ALL.into_iter().map(|parameter| (parameter.name(), text(parameter))).collect()
-}
-
-/// The names of all parameters, those of a machine last.
-pub(crate) fn parameter_names() -> Vec<&'static str> {
-    let machine = PhysicalParameter::ALL.map(PhysicalParameter::name);
-    Parameter::ALL.map(Parameter::name).into_iter().chain(machine).collect()
+    BodyNumber::ALL.into_iter().map(|parameter| (parameter.name(), text(parameter))).collect()
 }
 
 /// Name, value, long name, unit and scale of a coordinate.

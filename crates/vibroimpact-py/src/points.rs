@@ -15,7 +15,7 @@ use vibroimpact_study::{
 /// The column with this name.
 pub(crate) fn column(name: &str, values: Vec<f64>) -> Result<ListedColumn, Trouble> {
     let vary = Coordinate::named(name).ok_or_else(|| {
-        let parameters = crate::plan::parameter_names().join(", ");
+        let parameters = vibroimpact_study::parameter_names().join(", ");
         Trouble::question(format!(
             "`{name}` is no parameter and no coordinate of a start; there are {parameters}, x, v and phase"
         ))

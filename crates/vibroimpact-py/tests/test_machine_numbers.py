@@ -1,4 +1,4 @@
-"""Numbers of a machine vary in SI units, and results are in the units of the machine at each value."""
+"""Numbers of a body vary in SI units, and results are in the units of the body at each value."""
 
 import pickle
 

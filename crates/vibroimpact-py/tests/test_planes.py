@@ -1,4 +1,4 @@
-"""Curves and regions over numbers of a machine."""
+"""Curves and regions over numbers of a body."""
 
 import numpy as np
 import pytest

@@ -10,7 +10,7 @@ from vibroimpact._unit_names import fraction, unit_of
 
 MACHINE = vi.Oscillator.from_units(mass=2, stiffness=800, force=4, omega=25, gap=0.005, damping=1.5, restitution=0.5)
 
-#: Numbers of the machine by name.
+#: Numbers of the body by name.
 NUMBERS = {
     "force_n": 4,
     "mass_kg": 2,
@@ -52,7 +52,7 @@ def test_every_unit_is_parsed(stored: bool, tmp_path: Path) -> None:
     for ds in (of.load() if stored else of for of in found):
         for name, of in ds.variables.items():
             units, scale = of.attrs["units"], of.attrs.get("scale")
-            assert parsed(units).dimensionless or (scale is None and name in _core.machine_parameters()), name
+            assert parsed(units).dimensionless or (scale is None and name in _core.body_parameters()), name
             seen.add(units)
         for name, of in ds.vibro.si().variables.items():
             assert "scale" not in of.attrs

@@ -24,8 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         restitution: 0.5,
         ..SystemPlan::default()
     };
-    let si =
-        Units { scales: Some(Scales { length_m: 0.005, time_s: 0.05, mass_kg: 1.0 }), si: true, ..Units::default() };
+    let si = Units { scales: Some(Scales { length: 0.005, time: 0.05, mass: 1.0 }), si: true, ..Units::default() };
     let two = SystemPlan {
         second_stop: Some(vibroimpact_study::SecondStop { gap: 0.5, restitution: 0.6 }),
         ..system(1.3, 0.75)

@@ -3,9 +3,9 @@
 use crate::number::short;
 use crate::varied::{Varied, units_over};
 use vibroimpact::quantities::{Quantities, Quantity};
-use vibroimpact::{DrivenOscillator, QuantityKind, Scales};
+use vibroimpact::{QuantityKind, Scales};
 use vibroimpact_study::{
-    Axis, Coordinate, FramePlan, Parameter, Plan, PlanError, Span, SystemPlan, UnitsPlan, Values, is_length,
+    Axis, Body, Coordinate, FramePlan, Parameter, Plan, PlanError, Span, SystemPlan, UnitsPlan, Values, is_length,
     natural_hertz,
 };
 
@@ -19,12 +19,11 @@ pub struct Asked {
 }
 
 impl Asked {
-    /// The same with the units of the machine, after a number of it has changed.
+    /// The same with the units of the body, after a number of it has changed.
     #[must_use]
     pub fn refreshed(self) -> Self {
         let Some(plan) = UnitsPlan::of_system(&self.system).filter(|_| self.units.si) else { return self };
-        let units =
-            Units { scales: Some(plan.scales()), frame: plan.frame, machine: self.system.machine, ..self.units };
+        let units = Units { scales: Some(plan.scales()), frame: plan.frame, body: self.system.body, ..self.units };
         Self { units, ..self }
     }
 }
@@ -38,15 +37,15 @@ pub struct Units {
     pub si: bool,
     /// Whether the frequency ratio is reported as the frequency of the force in Hz.
     pub hertz: bool,
-    /// The frame of positions and phases, if the machine is driven by more than a force.
+    /// The frame of positions and phases, if the body is driven by more than a force.
     pub frame: Option<FramePlan>,
-    /// The machine, if the system is one.
-    pub machine: Option<DrivenOscillator>,
+    /// The body, if the system is one.
+    pub body: Option<Body>,
 }
 
 impl From<&UnitsPlan> for Units {
     fn from(plan: &UnitsPlan) -> Self {
-        Self { scales: Some(plan.scales()), si: true, hertz: plan.hertz, frame: plan.frame, machine: None }
+        Self { scales: Some(plan.scales()), si: true, hertz: plan.hertz, frame: plan.frame, body: None }
     }
 }
 
@@ -55,21 +54,19 @@ impl Units {
     #[must_use]
     pub fn of_plan(plan: &Plan) -> Self {
         let units = plan.units.as_ref().map_or_else(Self::default, Self::from);
-        Self { machine: plan.oscillator().and_then(|system| system.machine), ..units }
+        Self { body: plan.oscillator().and_then(|system| system.body), ..units }
     }
 
-    /// The units where a parameter has this value: the units of a machine depend on its mass, its stiffness and all that
+    /// The units where a parameter has this value: the units of a body depend on its mass, its stiffness and all that
     /// drives it.
     #[must_use]
     pub fn at(&self, parameter: Parameter, value: f64) -> Self {
-        let (Parameter::Physical(parameter), Some(machine), true) = (parameter, self.machine, self.si) else {
-            return *self;
-        };
-        let changed = parameter.set(&machine, value).and_then(|machine| Ok((machine, machine.reduced()?)));
-        // a value that gives no machine has no result either
-        changed.map_or(*self, |(machine, reduced)| {
-            let frame = self.frame.map(|frame| FramePlan { phase: reduced.phase, offset_m: reduced.offset_m, ..frame });
-            Self { scales: Some(reduced.scales), frame, machine: Some(machine), ..*self }
+        let (Parameter::Body(_), Some(body), true) = (parameter, self.body, self.si) else { return *self };
+        let changed = body.with(parameter, value).and_then(|body| Ok((body, body.reduction()?)));
+        // a value that gives no body has no result either
+        changed.map_or(*self, |(body, of)| {
+            let frame = self.frame.map(|frame| FramePlan { phase: of.phase(), offset_m: of.offset(), ..frame });
+            Self { scales: Some(of.scales()), frame, body: Some(body), ..*self }
         })
     }
 
@@ -97,7 +94,7 @@ impl Units {
     /// The units at point number `k` of the axes, the first of which varies fastest.
     #[must_use]
     pub fn at_point<V: Varied>(&self, axes: &[Axis<V>], k: usize) -> Self {
-        if self.machine.is_none() { *self } else { units_over(self, axes, &Axis::at(axes, k as u64)) }
+        if self.body.is_none() { *self } else { units_over(self, axes, &Axis::at(axes, k as u64)) }
     }
 
     fn factor(&self, of: impl Fn(&Scales) -> f64) -> f64 {
@@ -107,25 +104,25 @@ impl Units {
     /// The unit of length, as a factor for nondimensional lengths.
     #[must_use]
     pub fn length(&self) -> f64 {
-        self.factor(|s| s.length_m)
+        self.factor(|s| s.length)
     }
 
     /// The unit of time.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.factor(|s| s.time_s)
+        self.factor(|s| s.time)
     }
 
     /// The unit of velocity.
     #[must_use]
     pub fn velocity(&self) -> f64 {
-        self.factor(Scales::velocity_m_per_s)
+        self.factor(Scales::velocity)
     }
 
     /// The unit of a kind of quantity.
     #[must_use]
     pub fn of_kind(&self, kind: QuantityKind) -> f64 {
-        self.factor(|scales| kind.in_si(scales))
+        self.factor(|scales| kind.scale(scales))
     }
 
     /// The value of a quantity in these units; not-a-number if it is not defined.
@@ -175,7 +172,7 @@ impl Units {
     pub const fn unit_of(&self, parameter: Parameter) -> &'static str {
         match parameter {
             Parameter::Beta if self.si && self.hertz => "Hz",
-            Parameter::Physical(parameter) => parameter.unit(),
+            Parameter::Body(number) => number.unit(),
             _ if self.si && is_length(parameter) => "m",
             _ => "",
         }

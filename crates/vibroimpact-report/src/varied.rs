@@ -48,7 +48,7 @@ impl Varied for Parameter {
     }
 
     fn words(&self, units: &Units) -> String {
-        if let Self::Physical(parameter) = self {
+        if let Self::Body(parameter) = self {
             let (name, unit) = (parameter.description(), parameter.unit());
             return if unit.is_empty() { name.to_owned() } else { format!("{name} ({unit})") };
         }

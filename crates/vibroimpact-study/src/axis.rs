@@ -68,7 +68,7 @@ impl Coordinate {
             Self::Parameter(Parameter::Damping) => "damping ratio zeta",
             Self::Parameter(Parameter::SecondGap) => "gap of the second stop",
             Self::Parameter(Parameter::SecondRestitution) => "coefficient of restitution of the second stop",
-            Self::Parameter(Parameter::Physical(parameter)) => parameter.description(),
+            Self::Parameter(Parameter::Body(number)) => number.description(),
             Self::X => "position of the start",
             Self::V => "velocity of the start",
             Self::Phase => "phase of the force at the start",
@@ -82,7 +82,7 @@ impl Coordinate {
             Self::Parameter(Parameter::Gap | Parameter::SecondGap) | Self::X => Unit::LENGTH,
             Self::V => Unit::VELOCITY,
             Self::Phase => Unit::ANGLE,
-            Self::Parameter(Parameter::Physical(parameter)) => Unit::of_machine(parameter),
+            Self::Parameter(Parameter::Body(number)) => Unit::of_body(number),
             Self::Parameter(_) => Unit::NUMBER,
         }
     }
@@ -106,7 +106,7 @@ impl schemars::JsonSchema for Coordinate {
     }
 
     fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        let names: Vec<&str> = crate::parameter::names().into_iter().chain(["x", "v", "phase"]).collect();
+        let names: Vec<&str> = crate::parameter_names().into_iter().chain(["x", "v", "phase"]).collect();
         schemars::json_schema!({ "description": "What varies.", "type": "string", "enum": names })
     }
 }
@@ -397,7 +397,7 @@ pub fn system_at(system: &SystemPlan, axes: &[Axis], index: impl Fn(usize) -> us
 
 /// The start at a point of the axes: values on an axis replace those of `start`. `index(k)` is the place on axis `k`.
 /// Positions and velocities are in the units of `system`, that of the plan. The result is in the units of `there`, the
-/// system at the point: in a machine whose force, mass or stiffness varies, the start is held in SI units.
+/// system at the point: in a body whose force, mass or stiffness varies, the start is held in SI units.
 pub fn start_at(
     (system, there): (&SystemPlan, &SystemPlan),
     start: &StartPlan,

@@ -200,7 +200,7 @@ mod tests {
         super::curve(&problem, plan, control)
     }
 
-    use crate::{Parameter, PhysicalPlan, Plan, Task};
+    use crate::{Body, Parameter, Plan, Task};
 
     fn plan() -> (SystemPlan, CurvePlan) {
         let system = SystemPlan { inverse_beta: Some(1.11), gap: 1.5, restitution: 0.5, ..SystemPlan::default() };
@@ -237,9 +237,8 @@ mod tests {
     /// With the frequency held, the gap of the flip in units of the static deflection is one number: in the plane of gap and
     /// force the curve is a straight line through the origin. Over mass and stiffness it is that of one frequency ratio.
     #[test]
-    fn numbers_of_a_machine() {
-        let physical = |number| Parameter::Physical(number);
-        let machine = PhysicalPlan {
+    fn numbers_of_a_body() {
+        let body = Body {
             mass_kg: Some(0.8),
             stiffness_n_per_m: Some(12e3),
             force_n: Some(30.0),
@@ -247,10 +246,10 @@ mod tests {
             omega_rad_per_s: Some((12e3_f64 / 0.8).sqrt() / 1.11),
             gap_m: Some(3.75e-3),
             restitution: Some(0.5),
-            ..PhysicalPlan::default()
+            ..Body::default()
         };
-        let system = SystemPlan::of_machine(machine.driven().unwrap()).unwrap();
-        let over = |number, from, to| Stretch { parameter: physical(number), from, to };
+        let system = SystemPlan::of_body(&body).unwrap();
+        let over = |number, from, to| Stretch { parameter: Parameter::Body(number), from, to };
         let flip = |vary, and| {
             let plan = CurvePlan {
                 label: Some("1/1".into()),
@@ -263,7 +262,7 @@ mod tests {
             };
             curve(&system, &plan, &Control::default()).unwrap()
         };
-        use vibroimpact::PhysicalParameter::{Force, Gap, Stiffness};
+        use crate::BodyNumber::{Force, Gap, Stiffness};
         let line = flip(over(Gap, 0.0, 9e-3), over(Force, 15.0, 60.0));
         assert!(line.points.len() > 10);
         let slope = line.events[line.through].value / 30.0;
@@ -273,12 +272,12 @@ mod tests {
         let (one, other) = (line.points[0].values.1, line.points.last().unwrap().values.1);
         assert!((one - other).abs() > 39.0, "{one} {other} {:?}", line.points.last().unwrap().event);
 
-        // each point of the curve is a flip of the machine with that force and stiffness
+        // each point of the curve is a flip of the body with that force and stiffness
         let curved = flip(over(Force, 10.0, 60.0), over(Stiffness, 10e3, 14e3));
         assert!(curved.points.len() > 5);
         for CurvePoint { values: (force, stiffness), cycle, .. } in &curved.points {
-            let there = PhysicalPlan { force_n: Some(*force), stiffness_n_per_m: Some(*stiffness), ..machine };
-            let osc = SystemPlan::of_machine(there.driven().unwrap()).unwrap().oscillator().unwrap();
+            let there = Body { force_n: Some(*force), stiffness_n_per_m: Some(*stiffness), ..body };
+            let osc = SystemPlan::of_body(&there).unwrap().oscillator().unwrap();
             let again = vibroimpact::orbit::refine(&osc, cycle).expect("an orbit").cycle;
             assert!(
                 again.multipliers.iter().any(|m| (m.re + 1.0).abs() + m.im.abs() < 1e-7),

@@ -3,7 +3,7 @@
 use crate::machine::{MachineSource, VariedMachine};
 use crate::{Parameter, PlanError, Stretch, SystemPlan};
 use vibroimpact::continuation::machine::Family;
-use vibroimpact::{Oscillator, ParameterPath, SystemError};
+use vibroimpact::{Oscillator, ParameterPath};
 
 /// The line of an orbit diagram or a branch. A point on it is given by the value of the first parameter.
 ///
@@ -62,21 +62,19 @@ impl Cut {
     /// [`PlanError`] if both parameters are the same one, or if both ends of the first parameter are equal.
     pub fn varying(&self, system: &SystemPlan, value: f64) -> Result<ParameterPath, PlanError> {
         let (first, last) = self.ends;
-        let of_machine = self.names().find_map(|parameter| match parameter {
-            Parameter::Physical(parameter) => Some(*parameter),
-            _ => None,
-        });
+        let of_body = self.names().find_map(|parameter| parameter.of_body());
         if self.also.is_some() && first == last {
             return Err(PlanError::Nowhere { name: self.vary.name().into(), value: first });
         }
         let also = self.also.map(|also| (also.parameter, (also.to - also.from) / (last - first)));
-        if let Some(parameter) = of_machine {
-            let there = self.system(system, value)?.machine.ok_or(SystemError::NotPhysical(parameter.name()))?;
+        if let Some(number) = of_body {
+            let there = self.system(system, value)?.body.ok_or(PlanError::NoBody(number.name()))?;
             return Ok(there.line(self.vary, also)?);
         }
-        let alone = ParameterPath::from(self.vary);
+        let own = |parameter: Parameter| parameter.of_oscillator().ok_or(PlanError::NoBody(parameter.name()));
+        let alone = ParameterPath::from(own(self.vary)?);
         Ok(match also {
-            Some((other, rate)) => alone.with(other, rate)?,
+            Some((other, rate)) => alone.with(own(other)?, rate)?,
             None => alone,
         })
     }

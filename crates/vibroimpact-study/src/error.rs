@@ -8,6 +8,7 @@ use core::fmt;
 use std::borrow::Cow;
 use thiserror::Error;
 use vibroimpact::continuation::BranchError;
+use vibroimpact::edge::EdgeError;
 use vibroimpact::verdict::LabelError;
 use vibroimpact::{Label, SystemError};
 
@@ -58,6 +59,14 @@ pub enum PlanError {
         /// Its last value.
         to: f64,
     },
+    /// No border between two starts.
+    #[error(transparent)]
+    Edge(#[from] EdgeError),
+    /// A border without a second start.
+    #[error(
+        "a border lies between two starts, and the second start is missing\nhint: --other v=1 changes the velocity of the first start; of a machine --other qdot.NAME=1"
+    )]
+    NoOtherStart,
     /// The number of an orbit without a label.
     #[error(
         "the number of an orbit is given without a label\nhint: orbits are numbered among those with the same label m/n"
@@ -89,27 +98,30 @@ pub enum PlanError {
         /// All coordinates.
         coordinates: String,
     },
-    /// A number of a machine in two forms.
+    /// A number of a body in two forms.
     #[error("{0} and {1} are two forms of one number, and both are given")]
-    PhysicalTwice(&'static str, &'static str),
+    TwoForms(&'static str, &'static str),
     /// A stop that moves by itself, and a base that moves too.
     #[error("the motion of the stop is given, and a base that moves: a stop moves with its base or is fixed in space")]
     StopAndBase,
-    /// A system whose numbers are not those of its machine.
+    /// A number of a body, but the system is an oscillator without units.
+    #[error("{0} is a number of a body in SI units, and the system is nondimensional")]
+    NoBody(&'static str),
+    /// A system whose numbers are not those of its body.
     #[error(
-        "{name} = {given} of the system is not that of its machine, {own}\nhint: leave the nondimensional numbers out"
+        "{name} = {given} of the system is not that of its body, {own}\nhint: leave the nondimensional numbers out"
     )]
-    NotOfPhysical {
+    NotOfBody {
         /// The name of the number.
         name: &'static str,
         /// The number that is given.
         given: f64,
-        /// That of the machine.
+        /// That of the body.
         own: f64,
     },
-    /// A number of a machine as the side of a plane of parameters.
+    /// A number of a body as the side of a plane of parameters.
     #[error(
-        "{0} and {1} do not span a plane: {0} is measured in units that change with the numbers of the machine\nhint: take frequency_hz, gap_m or second_gap_m instead of {0}"
+        "{0} and {1} do not span a plane: {0} is measured in units that change with the numbers of the body\nhint: take frequency_hz, gap_m or second_gap_m instead of {0}"
     )]
     MixedPlane(&'static str, &'static str),
     /// A text that cannot be read as a plan.

@@ -28,11 +28,12 @@
 //! | a curve of folds, flips or grazing impacts in two parameters | [`CurvePlan`], [`EventCurve`] |
 //! | the regions where a motion exists and where it is stable | [`RegionPlan`], [`Regions`], [`stability_regions`] |
 //! | a quantity of all motions over one parameter | [`ResponsePlan`], [`ResponseCurves`] |
+//! | the border between the starts of two motions, and the saddle on it | [`EdgePlan`] |
 //! | the distances of a motion from its nearest events | [`MarginsPlan`], [`MotionMargins`] |
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 //! | machines as they are written, and their catalogue | [`machine`] |
-//! | an oscillator in SI units; the units of a plan | [`PhysicalPlan`], [`UnitsPlan`] |
+//! | an oscillator in SI units; the units of a plan | [`Body`], [`UnitsPlan`] |
 //! | the quantities of a motion that a plan asks for | [`Quantity`], `quantity` |
 
 pub mod axis;
@@ -45,6 +46,7 @@ mod curve;
 mod cut;
 pub mod diagram;
 mod dynamics;
+mod edge;
 mod error;
 mod event_columns;
 mod event_record;
@@ -59,7 +61,6 @@ mod margins;
 mod name;
 mod orbit_line;
 mod parameter;
-mod physical;
 mod plan;
 mod plan_text;
 mod points;
@@ -90,6 +91,7 @@ pub use curve::{CurvePlan, EventCurve, FollowedEvent};
 pub use cut::Cut;
 pub use diagram::{Diagram, DiagramPlan};
 pub use dynamics::{CycleOf, Dynamics, PointOf, Setup, machine_label, quantity_path};
+pub use edge::{EdgePlan, PlacePlan};
 pub use error::{PlanError, RunError};
 pub use event_columns::{END_REASONS, EventColumns, REAL_COLUMNS};
 pub use event_record::EventRecord;
@@ -97,6 +99,7 @@ pub use field::{Column, Extra, Field, NumberType};
 pub use grid::{Block, Dimension, Grid, number, place};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan, SectionPoints};
+pub use machine::{Body, BodyNumber};
 pub use map::{MapPlan, RegionMap, Share};
 pub use margins::{
     BoxEdge, DEFAULT_LINES, DEFAULT_WITHIN, Loss, MarginEnd, MarginsPlan, MotionBox, MotionMargins, ParameterMargin,
@@ -104,8 +107,7 @@ pub use margins::{
 };
 pub use name::{Name, Variable};
 pub use orbit_line::{Along, BranchPlace, OrbitLine, Solution};
-pub use parameter::{Parameter, is_length};
-pub use physical::PhysicalPlan;
+pub use parameter::{Parameter, is_length, parameter_names};
 pub use plan::Plan;
 pub use plan_text::is_machine_plan;
 pub use points::{DrawnPoints, ListedColumn, ManyPlan, PointRange, PointRule, PointsPlan};

@@ -1,8 +1,7 @@
 //! Names in plans: of what varies, and of quantities. A plan has them as they are written; a task reads them as names of the
 //! numbers of its system, an oscillator or a machine.
 
-use crate::parameter::names;
-use crate::{Coordinate, Parameter, PlanError, Quantity};
+use crate::{Coordinate, Parameter, PlanError, Quantity, parameter_names};
 use core::fmt;
 use core::marker::PhantomData;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -55,12 +54,12 @@ impl Name for Parameter {
 
     fn of(name: &str) -> Result<Self, PlanError> {
         Self::from_name(name).ok_or_else(|| {
-            PlanError::Name(format!("`{}` is no parameter; there are {}", short(name), names().join(", ")))
+            PlanError::Name(format!("`{}` is no parameter; there are {}", short(name), parameter_names().join(", ")))
         })
     }
 
     fn schema() -> Schema {
-        json_schema!({ "type": "string", "enum": names() })
+        json_schema!({ "type": "string", "enum": parameter_names() })
     }
 }
 
@@ -71,7 +70,7 @@ impl Name for Coordinate {
 
     fn of(name: &str) -> Result<Self, PlanError> {
         Self::named(name).ok_or_else(|| {
-            let known = names().join(", ");
+            let known = parameter_names().join(", ");
             PlanError::Name(format!("`{}` cannot vary; what can is {known}, x, v and phase", short(name)))
         })
     }
@@ -130,7 +129,7 @@ impl Name for Variable {
     }
 
     fn schema() -> Schema {
-        let known: Vec<&str> = names().into_iter().chain(["x", "v", "phase"]).collect();
+        let known: Vec<&str> = parameter_names().into_iter().chain(["x", "v", "phase"]).collect();
         json_schema!({
             "description": "A parameter of an oscillator or a coordinate of its start, or the path of a number of a machine or of its start.",
             "anyOf": [{ "type": "string", "enum": known }, { "type": "string" }],

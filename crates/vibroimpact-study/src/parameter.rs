@@ -1,8 +1,115 @@
-//! The parameters of the core, as they are written in plans.
+//! The parameters of an oscillator and of a body, as they are written in plans.
 
-use crate::{PlanError, SecondStop, SystemPlan};
-pub use vibroimpact::Parameter;
-use vibroimpact::{PhysicalParameter, SystemError};
+use crate::{BodyNumber, PlanError, SecondStop, SystemPlan};
+use vibroimpact::Parameter as OfOscillator;
+
+/// A number of an oscillator, or of a body in SI units.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Parameter {
+    /// Frequency ratio $`\beta`$, positive.
+    Beta,
+    /// Its inverse $`1/\beta`$, positive.
+    InverseBeta,
+    /// Gap $`\delta`$ of the first stop.
+    Gap,
+    /// Restitution $`\varepsilon`$ of the first stop, in [0, 1].
+    Restitution,
+    /// Damping ratio $`\zeta`$, not negative.
+    Damping,
+    /// Gap $`\delta_2`$ of the second stop.
+    SecondGap,
+    /// Restitution $`\varepsilon_2`$ of the second stop, in [0, 1].
+    SecondRestitution,
+    /// A number of a body.
+    Body(BodyNumber),
+}
+
+impl From<OfOscillator> for Parameter {
+    fn from(parameter: OfOscillator) -> Self {
+        match parameter {
+            OfOscillator::Beta => Self::Beta,
+            OfOscillator::InverseBeta => Self::InverseBeta,
+            OfOscillator::Gap => Self::Gap,
+            OfOscillator::Restitution => Self::Restitution,
+            OfOscillator::Damping => Self::Damping,
+            OfOscillator::SecondGap => Self::SecondGap,
+            OfOscillator::SecondRestitution => Self::SecondRestitution,
+        }
+    }
+}
+
+impl Parameter {
+    /// All parameters of an oscillator.
+    pub const ALL: [Self; 7] = [
+        Self::Beta,
+        Self::InverseBeta,
+        Self::Gap,
+        Self::Restitution,
+        Self::Damping,
+        Self::SecondGap,
+        Self::SecondRestitution,
+    ];
+
+    /// The parameter of the oscillator; `None` for a number of a body.
+    #[must_use]
+    pub const fn of_oscillator(self) -> Option<OfOscillator> {
+        Some(match self {
+            Self::Beta => OfOscillator::Beta,
+            Self::InverseBeta => OfOscillator::InverseBeta,
+            Self::Gap => OfOscillator::Gap,
+            Self::Restitution => OfOscillator::Restitution,
+            Self::Damping => OfOscillator::Damping,
+            Self::SecondGap => OfOscillator::SecondGap,
+            Self::SecondRestitution => OfOscillator::SecondRestitution,
+            Self::Body(_) => return None,
+        })
+    }
+
+    /// The number of a body; `None` for a parameter of the oscillator.
+    #[must_use]
+    pub const fn of_body(self) -> Option<BodyNumber> {
+        if let Self::Body(number) = self { Some(number) } else { None }
+    }
+
+    /// Its name in plans and tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Body(number) => number.name(),
+            Self::Beta => OfOscillator::Beta.name(),
+            Self::InverseBeta => OfOscillator::InverseBeta.name(),
+            Self::Gap => OfOscillator::Gap.name(),
+            Self::Restitution => OfOscillator::Restitution.name(),
+            Self::Damping => OfOscillator::Damping.name(),
+            Self::SecondGap => OfOscillator::SecondGap.name(),
+            Self::SecondRestitution => OfOscillator::SecondRestitution.name(),
+        }
+    }
+
+    /// The parameter with this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        let own = OfOscillator::from_name(name).map(Self::from);
+        own.or_else(|| BodyNumber::from_name(name).map(Self::Body))
+    }
+
+    /// Whether two parameters determine the same number, so that only one of them can vary.
+    #[must_use]
+    pub fn same_number(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Body(a), Self::Body(b)) => a.same_number(b),
+            (Self::Body(BodyNumber::Restitutions), Self::Restitution | Self::SecondRestitution)
+            | (Self::Restitution | Self::SecondRestitution, Self::Body(BodyNumber::Restitutions)) => true,
+            (a, b) => a == b || a.is_frequency() && b.is_frequency(),
+        }
+    }
+
+    /// Whether it is a frequency ratio of an oscillator.
+    #[must_use]
+    pub const fn is_frequency(self) -> bool {
+        matches!(self, Self::Beta | Self::InverseBeta)
+    }
+}
 
 /// Whether a parameter is a length (with unit $`F/k`$).
 #[must_use]
@@ -10,24 +117,25 @@ pub const fn is_length(parameter: Parameter) -> bool {
     matches!(parameter, Parameter::Gap | Parameter::SecondGap)
 }
 
-/// The names of all parameters, those of a machine last.
-pub(crate) fn names() -> Vec<&'static str> {
-    let machine = PhysicalParameter::ALL.map(PhysicalParameter::name);
-    Parameter::ALL.map(Parameter::name).into_iter().chain(machine).collect()
+/// The names of all parameters, those of a body last.
+#[must_use]
+pub fn parameter_names() -> Vec<&'static str> {
+    let own = Parameter::ALL.map(Parameter::name).into_iter();
+    own.chain(BodyNumber::ALL.map(BodyNumber::name)).collect()
 }
 
 impl SystemPlan {
     /// The same system with another value of one parameter. A value of $`\beta`$ or $`1/\beta`$ replaces whichever was
-    /// given. For a machine all its other numbers are held.
+    /// given. For a body all its other numbers are held.
     ///
     /// # Errors
-    /// [`PlanError::NoSecondStop`] for a parameter of a second stop if there is none, [`SystemError::NotPhysical`] for a
-    /// number of a machine if the system is none, and [`PlanError`] for a value of such a number that gives no system.
+    /// [`PlanError::NoSecondStop`] for a parameter of a second stop if there is none, [`PlanError::NoBody`] for a
+    /// number of a body if the system is none, and [`PlanError`] for a value of such a number that gives no system.
     pub fn with(&self, parameter: Parameter, value: f64) -> Result<Self, PlanError> {
         self.with_all([(parameter, value)])
     }
 
-    /// The same system with other values of several parameters. A machine is converted once, with all of them: between two
+    /// The same system with other values of several parameters. A body is converted once, with all of them: between two
     /// of them its stops may leave no room.
     ///
     /// # Errors
@@ -38,7 +146,7 @@ impl SystemPlan {
 
     /// The same, compiled once for all callers.
     fn with_each(&self, values: &mut dyn Iterator<Item = (Parameter, f64)>) -> Result<Self, PlanError> {
-        let Some(mut machine) = self.machine else {
+        let Some(mut body) = self.body else {
             let mut system = *self;
             for (parameter, value) in values {
                 system = system.changed(parameter, value)?;
@@ -47,15 +155,15 @@ impl SystemPlan {
         };
         let mut exact = Vec::new();
         for (parameter, value) in values {
-            machine = machine.with(parameter, value)?;
-            // a nondimensional number is exactly the given one, although the machine rounds it
+            body = body.with(parameter, value)?;
+            // a nondimensional number is exactly the given one, although the body rounds it
             if matches!(parameter, Parameter::Beta | Parameter::InverseBeta | Parameter::Gap | Parameter::SecondGap) {
                 exact.push((parameter, value));
             }
         }
         exact
             .into_iter()
-            .try_fold(Self::of_machine(machine)?, |system, (parameter, value)| system.changed(parameter, value))
+            .try_fold(Self::of_stored(body.stored())?, |system, (parameter, value)| system.changed(parameter, value))
     }
 
     /// The same nondimensional numbers but for one.
@@ -71,7 +179,7 @@ impl SystemPlan {
             Parameter::SecondRestitution => {
                 Self { second_stop: Some(SecondStop { restitution: value, ..second()? }), ..*self }
             }
-            Parameter::Physical(parameter) => return Err(SystemError::NotPhysical(parameter.name()).into()),
+            Parameter::Body(number) => return Err(PlanError::NoBody(number.name())),
         })
     }
 
@@ -83,11 +191,11 @@ impl SystemPlan {
         if let (Parameter::InverseBeta, Some(inverse)) = (parameter, self.inverse_beta) {
             return Ok(inverse);
         }
-        if let Parameter::Physical(parameter) = parameter {
-            let machine = self.machine.ok_or(SystemError::NotPhysical(parameter.name()))?;
-            return parameter.get(&machine).ok_or(PlanError::NoSecondStop(parameter.name()));
-        }
-        parameter.get(&self.oscillator()?).ok_or(PlanError::NoSecondStop(parameter.name()))
+        let value = match parameter.of_oscillator() {
+            Some(parameter) => parameter.get(&self.oscillator()?),
+            None => self.body.ok_or(PlanError::NoBody(parameter.name()))?.value(parameter),
+        };
+        value.ok_or(PlanError::NoSecondStop(parameter.name()))
     }
 }
 

@@ -219,6 +219,7 @@ impl Task {
             Self::Curve(plan) => plan.typed::<D::Name>()?.check(&of),
             Self::Region(plan) => plan.typed::<D::Name>()?.check(&of),
             Self::Response(plan) => plan.typed::<D::Name, D::Quantity>()?.check(&of),
+            Self::Edge(plan) => plan.typed::<D::Coordinate>()?.check(&of),
             _ => Ok(()),
         }?;
         D::check_own(&of, self)
@@ -242,7 +243,7 @@ mod tests {
         restitution: 0.5,
         damping: 0.0,
         second_stop: None,
-        machine: None,
+        body: None,
     };
 
     fn plan() -> Plan {

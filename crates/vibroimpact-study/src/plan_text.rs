@@ -7,11 +7,12 @@ use crate::name::{Name, Variable};
 use crate::plan::Plan;
 use crate::system::{SecondStop, System, SystemPlan};
 use crate::text::{Document, Value};
-use crate::{Axis, Coordinate, DiagramPlan, Parameter, PhysicalPlan, PlanError, PointsPlan, Quantity, Task, UnitsPlan};
+use crate::{
+    Axis, Body, BodyNumber, Coordinate, DiagramPlan, Parameter, PlanError, PointsPlan, Quantity, Task, UnitsPlan,
+};
 use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use vibroimpact::PhysicalParameter;
 
 /// A plan: of an oscillator, or of a machine where it has a table `machine`. What varies on an axis need not be given in the system.
 #[derive(Deserialize, JsonSchema)]
@@ -76,8 +77,9 @@ struct OscillatorText {
     damping: f64,
     /// A stop on the other side.
     second_stop: Option<SecondStop>,
-    /// A machine in SI units, instead of all numbers above.
-    machine: Option<PhysicalPlan>,
+    /// A body in SI units, instead of all numbers above.
+    #[serde(rename = "machine")]
+    body: Option<Body>,
 }
 
 impl Task {
@@ -314,25 +316,25 @@ pub fn is_machine_plan(text: &str) -> bool {
 }
 
 impl OscillatorText {
-    /// The system of a machine; `None` if none is given. The numbers of a machine that vary have their first values.
-    fn of_machine(&self, varied: &[(Parameter, f64)]) -> Result<Option<SystemPlan>, PlanError> {
-        let Some(mut machine) = self.machine else { return Ok(None) };
+    /// The system of a body; `None` if none is given. The numbers of a body that vary have their first values.
+    fn of_body(&self, varied: &[(Parameter, f64)]) -> Result<Option<SystemPlan>, PlanError> {
+        let Some(mut body) = self.body else { return Ok(None) };
         for (parameter, value) in varied {
             match parameter {
-                Parameter::Physical(parameter) => machine.set(*parameter, *value),
-                Parameter::Restitution => machine.restitution = Some(*value),
-                Parameter::SecondRestitution => machine.second_restitution = Some(*value),
-                Parameter::Damping => machine.set(PhysicalParameter::DampingRatio, *value),
+                Parameter::Body(number) => body.set(*number, *value),
+                Parameter::Restitution => body.restitution = Some(*value),
+                Parameter::SecondRestitution => body.second_restitution = Some(*value),
+                Parameter::Damping => body.set(BodyNumber::DampingRatio, *value),
                 _ => {}
             }
         }
-        let system = SystemPlan::of_machine(machine.driven()?)?;
-        // printed plans have the numbers of the oscillator too, which must be those of the machine
+        let system = SystemPlan::of_body(&body)?;
+        // printed plans have the numbers of the oscillator too, which must be those of the body
         let given = if varied.is_empty() { self.given() } else { [(Parameter::Beta, None); 4] };
         for (parameter, given) in given {
             let own = system.value(parameter).unwrap_or(f64::NAN);
             if let Some(given) = given.filter(|given| *given != own) {
-                return Err(PlanError::NotOfPhysical { name: parameter.name(), given, own });
+                return Err(PlanError::NotOfBody { name: parameter.name(), given, own });
             }
         }
         Ok(Some(system))
@@ -364,7 +366,7 @@ impl OscillatorText {
             restitution: self.restitution.unwrap_or(0.0),
             damping: self.damping,
             second_stop: self.second_stop,
-            machine: None,
+            body: None,
         })
     }
 
@@ -391,9 +393,9 @@ impl PlanText {
         }
         let varied = task.varied()?;
         let written = self.system.unwrap_or_default();
-        let system = match written.of_machine(&varied)? {
+        let system = match written.of_body(&varied)? {
             Some(system) => {
-                // the units are those of the machine at the first values of what varies
+                // the units are those of the body at the first values of what varies
                 let hertz = units.is_none_or(|units| units.hertz);
                 units = UnitsPlan::of_system(&system).map(|units| UnitsPlan { hertz, ..units });
                 system

@@ -248,28 +248,28 @@ mod tests {
         assert!(plan.neutral(&elastic) && !plan.neutral(&SystemPlan { damping: 0.1, ..elastic }));
     }
 
-    /// A region over numbers of a machine contains the points at which its oscillator lies in the region over parameters of
+    /// A region over numbers of a body contains the points at which its oscillator lies in the region over parameters of
     /// the oscillator.
     #[test]
-    fn numbers_of_a_machine() {
-        use vibroimpact::PhysicalParameter::{Force, Mass};
-        let machine = crate::PhysicalPlan {
+    fn numbers_of_a_body() {
+        use crate::BodyNumber::{Force, Mass};
+        let body = crate::Body {
             mass_kg: Some(1.0),
             stiffness_n_per_m: Some(1e4),
             force_n: Some(20.0),
             omega_rad_per_s: Some(100.0),
             gap_m: Some(3e-3),
             restitution: Some(0.5),
-            ..crate::PhysicalPlan::default()
+            ..crate::Body::default()
         };
-        let system = SystemPlan::of_machine(machine.driven().unwrap()).unwrap();
+        let system = SystemPlan::of_body(&body).unwrap();
         let over = |parameter, from, to| Stretch { parameter, from, to };
-        let (mass, force) = (Parameter::Physical(Mass), Parameter::Physical(Force));
+        let (mass, force) = (Parameter::Body(Mass), Parameter::Body(Force));
         let plan =
             RegionPlan { label: "1/1".into(), across: over(mass, 0.7, 0.95), up: over(force, 10.0, 60.0), grid: 12 };
         assert_eq!(Plan::new(system, plan.clone()).check(), Ok(()));
         let found = regions(&at_rest(&system), &plan, &Control::default()).unwrap();
-        let plain = SystemPlan { machine: None, ..system };
+        let plain = SystemPlan { body: None, ..system };
         let known = RegionPlan {
             across: over(Parameter::InverseBeta, 1.0, 1.25),
             up: over(Parameter::Gap, 0.4, 4.0),

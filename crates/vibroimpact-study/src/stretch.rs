@@ -1,12 +1,11 @@
 //! A number and its range.
 
 use crate::name::{Name, Written};
-use crate::{Parameter, PlanError, SystemPlan};
+use crate::{BodyNumber, Parameter, PlanError, SystemPlan};
 use core::ops::RangeInclusive;
 use serde::ser::SerializeStruct;
 use serde::{Deserialize, Serialize, Serializer};
 use vibroimpact::continuation::Frame;
-use vibroimpact::{PhysicalParameter, SystemError};
 
 /// A number from one value to another; as the side of a plane, to a larger one.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, schemars::JsonSchema)]
@@ -87,28 +86,25 @@ impl Stretch {
         self.from..=self.to
     }
 
-    /// The plane of this parameter and another one: of a machine if one of them is a number of a machine.
+    /// The plane of this parameter and another one: of a body if one of them is a number of a body.
     ///
     /// # Errors
-    /// [`SystemError::NotPhysical`] for a number of a machine if the system is none.
+    /// [`PlanError::NoBody`] for a number of a body if the system is none.
     pub(crate) fn frame(&self, other: &Self, system: &SystemPlan) -> Result<Frame, PlanError> {
-        let parameters = (self.parameter, other.parameter);
-        let plane = match self.physical().or_else(|| other.physical()) {
-            Some(number) => {
-                let machine = system.machine.ok_or(SystemError::NotPhysical(number.name()))?;
-                machine.plane(parameters)?
+        let (one, two) = (self.parameter, other.parameter);
+        let plane = match (one.of_oscillator().zip(two.of_oscillator()), system.body) {
+            (Some(parameters), _) => parameters.into(),
+            (None, Some(body)) => body.plane((one, two))?,
+            (None, None) => {
+                return Err(PlanError::NoBody(self.of_body().or(other.of_body()).map_or("", BodyNumber::name)));
             }
-            None => parameters.into(),
         };
         Ok(Frame { plane, ranges: (self.range(), other.range()) })
     }
 
-    /// The number of a machine that varies, if it is one.
-    pub(crate) const fn physical(&self) -> Option<PhysicalParameter> {
-        match self.parameter {
-            Parameter::Physical(number) => Some(number),
-            _ => None,
-        }
+    /// The number of a body that varies, if it is one.
+    pub(crate) const fn of_body(&self) -> Option<BodyNumber> {
+        self.parameter.of_body()
     }
 }
 
@@ -141,7 +137,7 @@ pub(crate) fn check_plane(system: &SystemPlan, one: &Stretch, two: &Stretch) -> 
     }
     for (own, other) in [(p, two), (q, one)] {
         let scaled = matches!(own, Parameter::Beta | Parameter::InverseBeta | Parameter::Gap | Parameter::SecondGap);
-        if let (true, Some(number)) = (scaled, other.physical()) {
+        if let (true, Some(number)) = (scaled, other.of_body()) {
             return Err(PlanError::MixedPlane(own.name(), number.name()));
         }
     }

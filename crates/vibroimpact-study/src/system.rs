@@ -1,9 +1,9 @@
 //! The oscillator and the start of a plan.
 
 use crate::PlanError;
-use crate::machine::MachineSource;
+use crate::machine::{Body, MachineSource};
 use serde::{Deserialize, Serialize};
-use vibroimpact::{DrivenOscillator, Oscillator, Reduced, Scales, Side, Start};
+use vibroimpact::{Oscillator, Scales, Side, Start};
 
 /// The system of a plan. Its numbers have names in both: those of an oscillator as `gap`, those of a machine as
 /// `stop.wall.gap`.
@@ -62,10 +62,10 @@ pub struct SystemPlan {
     /// A stop on the other side.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub second_stop: Option<SecondStop>,
-    /// The machine in SI units, if the system is one. The numbers above are those of its oscillator.
-    #[serde(default, skip_serializing_if = "Option::is_none", with = "crate::physical")]
-    #[schemars(with = "Option<crate::PhysicalPlan>")]
-    pub machine: Option<DrivenOscillator>,
+    /// The body in SI units, complete, if the system is one. The numbers above are those of its oscillator.
+    #[serde(default, rename = "machine", skip_serializing_if = "Option::is_none")]
+    #[serde(deserialize_with = "crate::machine::body::deserialize")]
+    pub body: Option<Body>,
 }
 
 /// A stop at `x = -gap`.
@@ -79,12 +79,17 @@ pub struct SecondStop {
 }
 
 impl SystemPlan {
-    /// The system of a machine.
+    /// The system of a body.
     ///
     /// # Errors
-    /// [`PlanError`] names the invalid number of the machine.
-    pub fn of_machine(machine: DrivenOscillator) -> Result<Self, PlanError> {
-        let Reduced { oscillator, .. } = machine.reduced()?;
+    /// [`PlanError`] names what is absent or given twice, or the invalid number.
+    pub fn of_body(body: &Body) -> Result<Self, PlanError> {
+        body.complete().and_then(Self::of_stored)
+    }
+
+    /// The system of a body in the form in which it is stored.
+    pub(crate) fn of_stored(body: Body) -> Result<Self, PlanError> {
+        let oscillator = body.reduction()?.oscillator;
         Ok(Self {
             beta: Some(oscillator.beta()),
             inverse_beta: None,
@@ -93,27 +98,25 @@ impl SystemPlan {
             damping: oscillator.damping(),
             second_stop: (oscillator.stop(Side::Lower))
                 .map(|stop| SecondStop { gap: stop.gap, restitution: stop.restitution }),
-            machine: Some(machine),
+            body: Some(body),
         })
     }
 
-    /// The units of the machine, if the system is one.
+    /// The units of the body, if the system is one.
     #[must_use]
     pub fn scales(&self) -> Option<Scales> {
-        self.machine.and_then(|machine| machine.reduced().ok()).map(|reduced| reduced.scales)
+        Some(self.body?.reduction().ok()?.scales())
     }
 
-    /// A position and a velocity of this system in the units of the system `there`, in which the machine may have another
+    /// A position and a velocity of this system in the units of the system `there`, in which the body may have another
     /// force, mass or stiffness.
     #[must_use]
     pub(crate) fn state_in(&self, there: &Self, (x, v): (f64, f64)) -> (f64, f64) {
-        if self.machine == there.machine {
+        if self.body == there.body {
             return (x, v);
         }
         match (self.scales(), there.scales()) {
-            (Some(own), Some(other)) => {
-                (x * (own.length_m / other.length_m), v * (own.velocity_m_per_s() / other.velocity_m_per_s()))
-            }
+            (Some(own), Some(other)) => (x * (own.length / other.length), v * (own.velocity() / other.velocity())),
             _ => (x, v),
         }
     }

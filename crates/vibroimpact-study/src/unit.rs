@@ -3,7 +3,8 @@
 //! The name of a unit follows UDUNITS, as the CF conventions demand. A nondimensional number is a pure number, with the name
 //! `1`; the scale by which it is divided is kept beside it, such as `omega_n F/k` for a velocity.
 
-use vibroimpact::system::{PhysicalParameter, QuantityKind};
+use crate::BodyNumber;
+use vibroimpact::QuantityKind;
 
 /// The unit of the numbers of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,10 +41,10 @@ impl Unit {
         }
     }
 
-    /// The SI unit of a number of a machine.
+    /// The SI unit of a number of a body.
     #[must_use]
-    pub const fn of_machine(parameter: PhysicalParameter) -> Self {
-        Self { name: parameter.udunits(), scale: "" }
+    pub const fn of_body(number: BodyNumber) -> Self {
+        Self { name: number.udunits(), scale: "" }
     }
 
     /// The kind of quantity whose nondimensional unit it is; a pure number for all other units.
@@ -77,10 +78,10 @@ mod tests {
             assert!(is_udunits(si) && unit.name == "1", "{si} {unit:?}");
             assert_eq!(unit.scale.is_empty(), si == "1", "{unit:?}");
         }
-        for parameter in PhysicalParameter::ALL {
-            let unit = Unit::of_machine(parameter);
-            assert!(is_udunits(unit.name) && unit.scale.is_empty(), "{parameter:?} {unit:?}");
-            assert_eq!(unit.name == "1", parameter.unit().is_empty(), "{parameter:?}");
+        for number in BodyNumber::ALL {
+            let unit = Unit::of_body(number);
+            assert!(is_udunits(unit.name) && unit.scale.is_empty(), "{number:?} {unit:?}");
+            assert_eq!(unit.name == "1", number.unit().is_empty(), "{number:?}");
         }
     }
 

@@ -3,7 +3,7 @@
 use crate::{PlanError, SystemPlan};
 use core::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
-use vibroimpact::{Excitation, Reduced, Scales};
+use vibroimpact::Scales;
 
 /// The physical units of a plan. The numbers of a plan are nondimensional; with these units its results are reported in
 /// SI units.
@@ -19,12 +19,12 @@ pub struct UnitsPlan {
     /// Whether the frequency ratio is reported as the frequency of the force in Hz.
     #[serde(default, skip_serializing_if = "core::ops::Not::not")]
     pub hertz: bool,
-    /// The frame of positions and phases, if the machine is driven by more than a force.
+    /// The frame of positions and phases, if the body is driven by more than a force.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<FramePlan>,
 }
 
-/// The frame of positions and phases of a machine that is driven by more than a force: its positions are those relative
+/// The frame of positions and phases of a body that is driven by more than a force: its positions are those relative
 /// to the motion of the stop, from the equilibrium under constant force and gravity.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -34,7 +34,7 @@ pub struct FramePlan {
     /// The position of the equilibrium in m, to be added to positions.
     pub offset_m: f64,
     /// Whether the stop moves otherwise than the base. Then the loss in the damper and the work of the equivalent force
-    /// are not those of the machine, and are not reported.
+    /// are not those of the body, and are not reported.
     #[serde(default, skip_serializing_if = "core::ops::Not::not")]
     pub apart: bool,
 }
@@ -43,30 +43,29 @@ impl UnitsPlan {
     /// The units with these scales.
     #[must_use]
     pub const fn new(scales: &Scales, hertz: bool, frame: Option<FramePlan>) -> Self {
-        let Scales { length_m, time_s, mass_kg } = *scales;
-        Self { length_m, time_s, mass_kg, hertz, frame }
+        let Scales { length, time, mass } = *scales;
+        Self { length_m: length, time_s: time, mass_kg: mass, hertz, frame }
     }
 
-    /// The units of a machine; `None` for a system that is none.
+    /// The units of a body; `None` for a system that is none.
     #[must_use]
     pub fn of_system(system: &SystemPlan) -> Option<Self> {
-        let machine = system.machine?;
-        let Reduced { scales, phase, offset_m, .. } = machine.reduced().ok()?;
-        let plain = machine.excitation == Excitation::default();
-        let frame = (!plain).then(|| FramePlan { phase, offset_m, apart: machine.stop_apart() });
-        Some(Self::new(&scales, true, frame))
+        let body = system.body?;
+        let of = body.reduction().ok()?;
+        let frame = FramePlan { phase: of.phase(), offset_m: of.offset(), apart: body.stop_apart() };
+        Some(Self::new(&of.scales(), true, (!body.is_plain()).then_some(frame)))
     }
 
     /// The units as scales.
     #[must_use]
     pub const fn scales(&self) -> Scales {
-        Scales { length_m: self.length_m, time_s: self.time_s, mass_kg: self.mass_kg }
+        Scales { length: self.length_m, time: self.time_s, mass: self.mass_kg }
     }
 
-    /// Checks that all units are positive and finite, and those of the machine if the system is one.
+    /// Checks that all units are positive and finite, and those of the body if the system is one.
     ///
     /// # Errors
-    /// [`PlanError::OutOfRange`] or [`PlanError::NotOfPhysical`] for the first that is not.
+    /// [`PlanError::OutOfRange`] or [`PlanError::NotOfBody`] for the first that is not.
     pub(crate) fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         if let Some(own) = Self::of_system(system) {
             for (name, given, own) in [
@@ -75,7 +74,7 @@ impl UnitsPlan {
                 ("mass_kg", self.mass_kg, own.mass_kg),
             ] {
                 if given != own {
-                    return Err(PlanError::NotOfPhysical { name, given, own });
+                    return Err(PlanError::NotOfBody { name, given, own });
                 }
             }
         }
@@ -98,5 +97,5 @@ impl UnitsPlan {
 /// The frequency of the force in Hz where the frequency ratio is 1, for one unit of time `time_s` in s.
 #[must_use]
 pub fn natural_hertz(scales: &Scales) -> f64 {
-    1.0 / (TAU * scales.time_s)
+    1.0 / (TAU * scales.time)
 }

@@ -13,7 +13,7 @@ fn systems() -> impl Iterator<Item = SystemPlan> {
             restitution: part(0.362_105_1),
             damping: if k % 3 == 0 { 0.1 * part(0.23) } else { 0.0 },
             second_stop: None,
-            machine: None,
+            body: None,
             beta: None,
         }
     })

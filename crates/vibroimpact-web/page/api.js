@@ -68,7 +68,7 @@ const withQuery = (path, query) => {
   return given.length ? `${path}?${new URLSearchParams(given)}` : path;
 };
 
-/** The units of a machine. @returns {Promise<{units: object, velocity_m_per_s: number, natural_hz: number}>} */
+/** The units of a body. @returns {Promise<{units: object, velocity_m_per_s: number, natural_hz: number}>} */
 export const units = async (machine, signal) => complete((await ask(withQuery("/api/units", machine), { signal })).json());
 
 export const about = async () => (await ask("/api/about")).json();

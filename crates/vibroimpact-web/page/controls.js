@@ -100,7 +100,7 @@ function showParameter(state, name, { box, range, field, title }) {
   const onAxis = [state.x, state.y].includes(name) || (isFrequency(name) && [state.x, state.y].some(isFrequency));
   const own = shownAs(state, name);
   title.replaceChildren(element("i", { class: "math", text: own.symbol }), ` ${own.words}${own.unit && `, ${own.unit}`}`);
-  // a machine has a frequency, and not its inverse
+  // a body has a frequency, and not its inverse
   box.hidden = onAxis || name === (state.machine ? "inverse_beta" : "beta") || (ofSecondStop(name) && !state.second);
   const value = valueOf(state, name);
   if (document.activeElement !== range) range.value = String(value);

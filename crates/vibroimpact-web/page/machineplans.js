@@ -1,6 +1,6 @@
-/** Plans in the units of a machine: the numbers of the machine instead of nondimensional ones, as its owner would type them. */
+/** Plans in the units of a body: the numbers of the body instead of nondimensional ones, as its owner would type them. */
 
-/** Names of parameters of a machine in plans, and of those that are pure numbers in both. */
+/** Names of parameters of a body in plans, and of those that are pure numbers in both. */
 const NAMES = {
   beta: "frequency_hz", gap: "gap_m", second_gap: "second_gap_m", damping: "damping_ratio",
   restitution: "restitution", second_restitution: "second_restitution",
@@ -15,8 +15,8 @@ export const exact = (value) => Number(value.toPrecision(DIGITS));
 /** One nondimensional unit of a parameter in the unit of its name. */
 export const unitOf = (name, { units, natural_hz: natural }) => ({ beta: natural, gap: units.length_m, second_gap: units.length_m })[name] ?? 1;
 
-/** The numbers of the machine at the system of a plan. */
-function machineOf({ beta, inverse_beta: inverse, gap, restitution, damping, second_stop: second }, [mass, stiffness, force], found) {
+/** The numbers of the body at the system of a plan. */
+function bodyOf({ beta, inverse_beta: inverse, gap, restitution, damping, second_stop: second }, [mass, stiffness, force], found) {
   const machine = {
     mass_kg: mass, stiffness_n_per_m: stiffness, force_n: force, restitution,
     frequency_hz: exact((beta ?? 1 / inverse) * found.natural_hz), gap_m: exact(gap * found.units.length_m),
@@ -37,7 +37,7 @@ function rangeIn(over, unit, back = 1) {
 }
 
 /**
- * A plan for the machine of the state; the same plan if the units are not known, or if what varies is no number of a machine.
+ * A plan for the body of the state; the same plan if the units are not known, or if what varies is no number of a body.
  * @param {object} plan
  * @param {number[] | null} machine mass, stiffness and force
  * @param {object | null} found the answer about its units
@@ -63,7 +63,7 @@ export function inMachine(plan, machine, found) {
       task.diagram.also = { parameter: NAMES[parameter], from: exact(from * unit), to: exact(to * unit) };
     }
   }
-  return { ...plan, system: { machine: machineOf(plan.system, machine, found) }, task };
+  return { ...plan, system: { machine: bodyOf(plan.system, machine, found) }, task };
 }
 
 /**

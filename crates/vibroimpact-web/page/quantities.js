@@ -27,6 +27,6 @@ export class Quantities {
       const { unit, per } = si ? pageUnit(given) : { unit: "", per: 1 };
       return [element("dt", { text: description }), element("dd", { text: `${short(per * quantities[name])}${unit && ` ${unit}`}` })];
     }));
-    this.note.textContent = si ? "" : "Lengths in units of F/k, times in units of 1/ωₙ. With a machine under Units they are in mm, s, J and W.";
+    this.note.textContent = si ? "" : "Lengths in units of F/k, times in units of 1/ωₙ. With a body under Units they are in mm, s, J and W.";
   }
 }

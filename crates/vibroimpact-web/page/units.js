@@ -1,4 +1,4 @@
-/** The physical units of a machine, from the server, and the fields for its mass, stiffness and force. */
+/** The physical units of a body, from the server, and the fields for its mass, stiffness and force. */
 
 import { units as askUnits } from "./api.js";
 import { byId, element } from "./dom.js";
@@ -16,19 +16,19 @@ const EXAMPLE = [0.8, 12000, 30];
 const known = new Map();
 const keyOf = ({ machine }) => JSON.stringify(machine);
 
-/** @param {import("./state.js").State} state @returns {{units: object, velocity_m_per_s: number, natural_hz: number} | null} null without a machine */
+/** @param {import("./state.js").State} state @returns {{units: object, velocity_m_per_s: number, natural_hz: number} | null} null without a body */
 const unitsOf = (state) => (state.machine ? known.get(keyOf(state)) ?? null : null);
 
-/** A plan whose results are in the units of the machine of the state, if it has one. */
+/** A plan whose results are in the units of the body of the state, if it has one. */
 export function inUnits(plan, state) {
   const found = unitsOf(state);
   return found ? { ...plan, units: found.units } : plan;
 }
 
-/** A plan in the numbers of the machine of the state, if it has one. */
+/** A plan in the numbers of the body of the state, if it has one. */
 export const asShown = (plan, state) => inMachine(plan, state.machine, unitsOf(state));
 
-/** A value of a parameter in the unit that it has in plans in the units of the machine of the state, if it has one. */
+/** A value of a parameter in the unit that it has in plans in the units of the body of the state, if it has one. */
 export function planValue(state, name, value) {
   const found = unitsOf(state);
   const unit = found ? unitOf(name, found) : 1;
@@ -41,7 +41,7 @@ export function perUnit(state, name) {
   return found && name !== "inverse_beta" ? shownAs(state, name).factor / unitOf(name, found) : 1;
 }
 
-/** Coordinates in the units of a machine: symbol, name and unit, and one nondimensional unit in them. */
+/** Coordinates in the units of a body: symbol, name and unit, and one nondimensional unit in them. */
 const IN_UNITS = {
   beta: { symbol: "f", words: "frequency of the force", unit: "Hz", factor: ({ natural_hz: natural }) => natural },
   gap: { unit: "mm", factor: ({ units }) => 1000 * units.length_m },
@@ -53,7 +53,7 @@ const IN_UNITS = {
 const coordinates = new Map();
 
 /**
- * A coordinate as it is shown: with the units of the machine, if there is one.
+ * A coordinate as it is shown: with the units of the body, if there is one.
  * @param {import("./state.js").State} state
  * @param {string} name of a parameter, or `x` or `v` of a start
  * @returns {import("./parameters.js").Coordinate & {unit: string, factor: number}} the same object for the same units
@@ -91,10 +91,10 @@ export function quantityOf(state) {
   return { name, description, unit, per, factor: per * (found?.quantities[name] ?? 1), of: state.of };
 }
 
-/** The units of a machine, for plans in them; null without a machine or before they are there. */
+/** The units of a body, for plans in them; null without a body or before they are there. */
 export const machineUnits = (state) => unitsOf(state);
 
-/** The chosen point as a machine: frequency of the force, gaps, natural frequency. */
+/** The chosen point as a body: frequency of the force, gaps, natural frequency. */
 export function machineText(state) {
   const found = unitsOf(state);
   if (!found) return "";
@@ -121,10 +121,10 @@ export function units(store, failed, changed) {
     element("label", { for: `machine-${name}`, text: `${name} in ${unit}` }), fields[k].input, fields[k].said)), said);
   const on = element("input", {
     type: "checkbox", id: "machine",
-    // the frequency is an axis of a machine, its inverse is none; numbers that are typed for the colours are in other units
+    // the frequency is an axis of a body, its inverse is none; numbers that are typed for the colours are in other units
     onchange: () => store.set({ ...(on.checked ? frequencyAxes({ ...store.state, machine: EXAMPLE }) : {}), machine: on.checked ? EXAMPLE : null, range: null }),
   });
-  byId("machine-units").append(element("label", { class: "check" }, on, element("span", { text: "a machine, in mm, Hz, m/s, N, J, W" })), box);
+  byId("machine-units").append(element("label", { class: "check" }, on, element("span", { text: "a body, in mm, Hz, m/s, N, J, W" })), box);
   const asked = new Latest(async (state, signal) => {
     const [mass_kg, stiffness_n_per_m, force_n] = state.machine;
     known.set(keyOf(state), await askUnits({ mass_kg, stiffness_n_per_m, force_n }, signal));

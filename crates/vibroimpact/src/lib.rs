@@ -55,7 +55,7 @@
 //! # Units
 //!
 //! All quantities are nondimensional - lengths in static deflections $`F/k`$, times in $`1/\omega_n`$ - unless a name
-//! says otherwise. [`PhysicalOscillator`] converts from kg, N/m, N and Hz and back. Phases are in radians in $`[0, 2\pi)`$;
+//! says otherwise. [`machine::Reduction`] converts those of a machine, and [`Scales`] answers to its units. Phases are in radians in $`[0, 2\pi)`$;
 //! arrival speeds are positive.
 //!
 //! # Source
@@ -87,9 +87,8 @@ pub mod verdict;
 
 pub use orbit::Label;
 pub use system::{
-    Amplitude, Damping, DrivenOscillator, EquivalentOscillator, Excitation, Frequency, Oscillator, OscillatorFamily,
-    Parameter, ParameterPath, ParameterPlane, PhysicalOscillator, PhysicalParameter, PhysicalStop, QuantityKind,
-    Reduced, Scales, Shaking, Side, Start, Stop, SystemError,
+    Oscillator, OscillatorFamily, Parameter, ParameterPath, ParameterPlane, QuantityKind, Scales, Side, Start, Stop,
+    SystemError,
 };
 
 /// The listings of the README are compiled and run.

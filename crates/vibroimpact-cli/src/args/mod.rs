@@ -1,6 +1,7 @@
 //! Groups of arguments that several commands share. Arguments of one command are in the file of that command.
 
 mod axes;
+mod body;
 mod changed;
 mod colour;
 mod fields;
@@ -11,7 +12,6 @@ mod output;
 mod outputs;
 mod overlay;
 mod parameter_flag;
-mod physical;
 mod plane;
 mod question;
 mod ranged;
@@ -24,6 +24,7 @@ mod unit_text;
 mod vary;
 
 pub(crate) use axes::AxesArgs;
+pub(crate) use body::BodyArgs;
 pub(crate) use changed::SetArgs;
 pub(crate) use colour::ColourArgs;
 pub(crate) use fields::{FieldName, FieldsArgs, quantity};
@@ -34,7 +35,6 @@ pub(crate) use output::Globals;
 pub(crate) use outputs::{Files, OutputArgs};
 pub(crate) use overlay::OverlayArgs;
 pub(crate) use parameter_flag::{ParameterFlag, Varied, varied};
-pub(crate) use physical::PhysicalArgs;
 pub(crate) use plane::{BranchEnds, Ends, Interval, Named, Value, VariedNamed, VariedOver, place};
 pub(crate) use question::{AskedSystem, Question};
 pub(crate) use ranged::{Ranged, axis_values};

@@ -4,30 +4,29 @@ use crate::failure::Failure;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, Command};
 use std::ffi::OsStr;
-use vibroimpact::PhysicalParameter;
-use vibroimpact_study::Parameter;
+use vibroimpact_study::{BodyNumber, Parameter};
 
-/// A parameter that varies, as it was named: a parameter of the oscillator or a number of a machine.
+/// A parameter that varies, as it was named: a parameter of the oscillator or a number of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ParameterFlag {
     pub(crate) parameter: Parameter,
 }
 
 impl ParameterFlag {
-    /// A number of a machine.
-    pub(crate) const fn of_machine(parameter: PhysicalParameter) -> Self {
-        Self { parameter: Parameter::Physical(parameter) }
+    /// A number of a body.
+    pub(crate) const fn of_body(number: BodyNumber) -> Self {
+        Self { parameter: Parameter::Body(number) }
     }
 
-    /// All of them, those of a machine last.
+    /// All of them, those of a body last.
     pub(crate) fn all() -> impl Iterator<Item = Self> {
-        let machine = PhysicalParameter::ALL.into_iter().map(Self::of_machine);
-        Parameter::ALL.into_iter().map(|parameter| Self { parameter }).chain(machine)
+        let body = BodyNumber::ALL.into_iter().map(Self::of_body);
+        Parameter::ALL.into_iter().map(|parameter| Self { parameter }).chain(body)
     }
 
-    /// The number of a machine, if it is one.
-    pub(crate) const fn machine(self) -> Option<PhysicalParameter> {
-        if let Parameter::Physical(parameter) = self.parameter { Some(parameter) } else { None }
+    /// The number of a body, if it is one.
+    pub(crate) const fn number(self) -> Option<BodyNumber> {
+        self.parameter.of_body()
     }
 
     /// Its name on the command line, without dashes before it.
@@ -37,14 +36,10 @@ impl ParameterFlag {
 
     fn meaning(self) -> String {
         match self.parameter {
-            Parameter::Physical(parameter) => {
+            Parameter::Body(parameter) => {
                 let unit = parameter.unit();
                 let name = parameter.description();
-                if unit.is_empty() {
-                    format!("of a machine: {name}")
-                } else {
-                    format!("of a machine: {name} in {unit}")
-                }
+                if unit.is_empty() { format!("of a body: {name}") } else { format!("of a body: {name} in {unit}") }
             }
             parameter => meaning(parameter).to_owned(),
         }
@@ -134,30 +129,29 @@ pub(crate) const fn flag(parameter: Parameter) -> &'static str {
         Parameter::Damping => "damping",
         Parameter::SecondGap => "second-gap",
         Parameter::SecondRestitution => "second-restitution",
-        Parameter::Physical(parameter) => machine_flag(parameter),
+        Parameter::Body(parameter) => body_flag(parameter),
     }
 }
 
-const fn machine_flag(parameter: PhysicalParameter) -> &'static str {
+const fn body_flag(parameter: BodyNumber) -> &'static str {
     match parameter {
-        PhysicalParameter::Mass => "mass-kg",
-        PhysicalParameter::Stiffness => "stiffness-n-per-m",
-        PhysicalParameter::DampingCoefficient => "damping-ns-per-m",
-        PhysicalParameter::DampingRatio => "damping-ratio",
-        PhysicalParameter::Force => "force-n",
-        PhysicalParameter::Frequency => "frequency-hz",
-        PhysicalParameter::Gap => "gap-m",
-        PhysicalParameter::SecondGap => "second-gap-m",
-        PhysicalParameter::Gaps => "gaps-m",
-        PhysicalParameter::Restitutions => "restitutions",
-        PhysicalParameter::BaseDisplacement => "base-displacement-m",
-        PhysicalParameter::BaseVelocity => "base-velocity-m-per-s",
-        PhysicalParameter::BaseAcceleration => "base-acceleration-m-per-s2",
-        PhysicalParameter::StopDisplacement => "stop-displacement-m",
-        PhysicalParameter::Unbalance => "unbalance-kg-m",
-        PhysicalParameter::ConstantForce => "constant-force-n",
-        PhysicalParameter::Gravity => "gravity-m-per-s2",
-        other => other.name(),
+        BodyNumber::Mass => "mass-kg",
+        BodyNumber::Stiffness => "stiffness-n-per-m",
+        BodyNumber::DampingCoefficient => "damping-ns-per-m",
+        BodyNumber::DampingRatio => "damping-ratio",
+        BodyNumber::Force => "force-n",
+        BodyNumber::Frequency => "frequency-hz",
+        BodyNumber::Gap => "gap-m",
+        BodyNumber::SecondGap => "second-gap-m",
+        BodyNumber::Gaps => "gaps-m",
+        BodyNumber::Restitutions => "restitutions",
+        BodyNumber::BaseDisplacement => "base-displacement-m",
+        BodyNumber::BaseVelocity => "base-velocity-m-per-s",
+        BodyNumber::BaseAcceleration => "base-acceleration-m-per-s2",
+        BodyNumber::StopDisplacement => "stop-displacement-m",
+        BodyNumber::Unbalance => "unbalance-kg-m",
+        BodyNumber::ConstantForce => "constant-force-n",
+        BodyNumber::Gravity => "gravity-m-per-s2",
     }
 }
 
@@ -170,7 +164,7 @@ const fn meaning(parameter: Parameter) -> &'static str {
         Parameter::Damping => "Damping ratio zeta",
         Parameter::SecondGap => "Distance of the second stop",
         Parameter::SecondRestitution => "Restitution of the second stop",
-        Parameter::Physical(parameter) => parameter.description(),
+        Parameter::Body(parameter) => parameter.description(),
     }
 }
 
@@ -179,9 +173,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn flags_of_a_machine_are_its_names_with_hyphens() {
-        for parameter in PhysicalParameter::ALL {
-            assert_eq!(machine_flag(parameter), parameter.name().replace('_', "-"));
+    fn flags_of_a_body_are_its_names_with_hyphens() {
+        for parameter in BodyNumber::ALL {
+            assert_eq!(body_flag(parameter), parameter.name().replace('_', "-"));
         }
     }
 }

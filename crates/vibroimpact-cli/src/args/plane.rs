@@ -163,7 +163,7 @@ mod tests {
         assert_eq!("gap= -0.5".parse(), Ok(Named(plain(Parameter::Gap), Value(-0.5))));
         assert!("gap=1,5".parse::<Named<Value>>().is_err_and(|why| why.ends_with("hint: write 1.5")));
         assert!("gap".parse::<Named<Ends>>().is_err_and(|why| why.contains("hint: gap= and its value")));
-        let hertz = ParameterFlag::of_machine(vibroimpact::PhysicalParameter::Frequency);
+        let hertz = ParameterFlag::of_body(vibroimpact_study::BodyNumber::Frequency);
         assert_eq!("frequency-hz=15:25".parse(), Ok(Named(hertz, Interval(15.0, 25.0))));
         for bad in ["gap=1:2:3", "gap=1", "gap=1:nan", "1:2"] {
             assert!(bad.parse::<Named<Ends>>().is_err(), "{bad}");

@@ -1,5 +1,5 @@
 //! A value, or several: `0.5`, the ends of a range `A:B`, the values of an axis `A:B:N` or `A:B:N:log`, or a list
-//! `0.2,0.5,0.8`. The numbers of a machine may have units.
+//! `0.2,0.5,0.8`. The numbers of a body may have units.
 
 use super::numbers::shown;
 use super::unit_text::UnitKind;

@@ -1,8 +1,8 @@
 //! SYSTEM with the values of axes: each number is one value or those of an axis.
 
 use super::AxesArgs;
+use super::body::BodyArgs;
 use super::parameter_flag::ParameterFlag;
-use super::physical::PhysicalArgs;
 use super::system::{Convention, NumbersArgs, values, without_second_restitution};
 use crate::failure::Failure;
 use clap::Args;
@@ -20,23 +20,23 @@ pub(crate) struct RangedSystemArgs {
     axes: AxesArgs,
 
     #[command(flatten)]
-    machine: PhysicalArgs,
+    body: BodyArgs,
 }
 
 impl RangedSystemArgs {
     /// The system with the first value of each range, and the units of the results, which are SI units of a body.
     pub(crate) fn asked(&self) -> Result<Asked, Failure> {
-        if self.numbers.varies(Parameter::Restitution) && self.numbers.second_stop_follows(&self.machine) {
+        if self.numbers.varies(Parameter::Restitution) && self.numbers.second_stop_follows(&self.body) {
             return Err(without_second_restitution());
         }
-        let body = self.numbers.body(&self.machine).any();
+        let body = self.numbers.body(&self.body).any();
         let units = if body { Convention::Si } else { Convention::Nondimensional };
-        self.numbers.first(&self.machine, units, &[])
+        self.numbers.first(&self.body, units, &[])
     }
 
     /// The parameters that vary, in the order of the axes.
     pub(crate) fn axes(&self) -> Result<Vec<Axis>, Failure> {
-        let mut varied = self.numbers.body(&self.machine).axes()?;
+        let mut varied = self.numbers.body(&self.body).axes()?;
         let plain = |(parameter, given): (Parameter, &super::Ranged)| {
             Some((ParameterFlag { parameter }, given.axis(parameter)?))
         };

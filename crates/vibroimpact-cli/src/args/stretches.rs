@@ -1,13 +1,12 @@
 //! SYSTEM with ranges A:B: each parameter is one value or lies between two ends.
 
 use super::system::{NumbersArgs, without_second_restitution};
-use super::{Convention, ParameterFlag, PhysicalArgs};
+use super::{BodyArgs, Convention, ParameterFlag};
 use crate::failure::Failure;
-use vibroimpact::PhysicalParameter;
 use vibroimpact_report::Asked;
-use vibroimpact_study::{Parameter, Stretch};
+use vibroimpact_study::{BodyNumber, Parameter, Stretch};
 
-/// How the numbers of a machine that vary are parameters: as those of the oscillator, or as they are.
+/// How the numbers of a body that vary are parameters: as those of the oscillator, or as they are.
 pub(crate) type AsParameters = fn(&mut Asked, &[ParameterFlag]) -> Vec<Parameter>;
 
 impl NumbersArgs {
@@ -23,28 +22,24 @@ impl NumbersArgs {
     /// of parameters that have no flag.
     pub(crate) fn over_ranges(
         &self,
-        (machine, units): (&PhysicalArgs, Convention),
+        (body, units): (&BodyArgs, Convention),
         first: &[(Parameter, f64)],
         as_parameters: AsParameters,
     ) -> Result<(Asked, Vec<Stretch>), Failure> {
-        let is_machine = machine.any();
+        let is_body = body.any();
         let restitution = |p: Parameter| matches!(p, Parameter::Restitution | Parameter::SecondRestitution);
         let mut numbers = self.clone();
-        for (parameter, _) in self.given().filter(|(of, given)| is_machine && !restitution(*of) && !given.is_one()) {
+        for (parameter, _) in self.given().filter(|(of, given)| is_body && !restitution(*of) && !given.is_one()) {
             numbers.set(parameter, None);
         }
-        for (parameter, value) in first.iter().filter(|(of, _)| !self.has(*of) && (!is_machine || restitution(*of))) {
+        for (parameter, value) in first.iter().filter(|(of, _)| !self.has(*of) && (!is_body || restitution(*of))) {
             numbers.set(*parameter, Some(*value));
         }
-        let physical = machine.ends()?;
-        let set: Vec<(PhysicalParameter, f64)> = (first.iter())
-            .filter_map(|(parameter, value)| match parameter {
-                Parameter::Physical(parameter) => Some((*parameter, *value)),
-                _ => None,
-            })
-            .collect();
+        let physical = body.ends()?;
+        let set: Vec<(BodyNumber, f64)> =
+            (first.iter()).filter_map(|(parameter, value)| Some((parameter.of_body()?, *value))).collect();
         let units = if physical.is_empty() && set.is_empty() { units } else { Convention::Si };
-        let mut asked = numbers.first(machine, units, &set)?;
+        let mut asked = numbers.first(body, units, &set)?;
         let flags: Vec<ParameterFlag> = physical.iter().map(|(named, _)| *named).collect();
         let parameters = as_parameters(&mut asked, &flags);
         let ranges = parameters.into_iter().zip(physical).map(|(parameter, (_, ends))| (parameter, ends));
@@ -57,13 +52,13 @@ impl NumbersArgs {
         let listed = first.iter().map(|(parameter, value)| (*parameter, value / asked.units.of(*parameter)));
         let starts: Vec<(Parameter, f64)> =
             listed.chain(over.iter().map(|stretch| (stretch.parameter, stretch.from))).collect();
-        let of_machines = starts.iter().any(|(parameter, _)| matches!(parameter, Parameter::Physical(_)));
-        if of_machines {
+        let of_body = starts.iter().any(|(parameter, _)| matches!(parameter, Parameter::Body(_)));
+        if of_body {
             asked.system = asked.system.with_all(starts)?;
             asked = asked.refreshed();
-        } else if is_machine && !starts.is_empty() {
-            // what varies are parameters of the oscillator, in the units of the machine
-            asked.system.machine = None;
+        } else if is_body && !starts.is_empty() {
+            // what varies are parameters of the oscillator, in the units of the body
+            asked.system.body = None;
             for (parameter, value) in starts {
                 asked.system = asked.system.with(parameter, value)?;
             }

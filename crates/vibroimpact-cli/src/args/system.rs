@@ -1,7 +1,7 @@
 //! SYSTEM: the oscillator, in nondimensional or in physical units.
 
+use super::body::BodyArgs;
 use super::parameter_flag::flag;
-use super::physical::PhysicalArgs;
 use super::plane::place;
 use super::unit_text::UnitKind;
 use super::{Ranged, number};
@@ -9,9 +9,8 @@ use crate::failure::Failure;
 use clap::builder::{Resettable, TypedValueParser};
 use clap::{Arg, Args, Id, ValueEnum};
 use core::cell::Cell;
-use vibroimpact::PhysicalParameter;
 use vibroimpact_report::{Asked, Units};
-use vibroimpact_study::{Parameter, SecondStop, SystemPlan};
+use vibroimpact_study::{BodyNumber, Parameter, SecondStop, SystemPlan};
 
 /// The numbers of a nondimensional oscillator: one value each, or several where a command takes [values] or [ranges].
 #[derive(Clone, Debug, Default, Args)]
@@ -53,7 +52,7 @@ pub(crate) struct SystemArgs {
     pub(super) numbers: NumbersArgs,
 
     #[command(flatten)]
-    pub(super) machine: PhysicalArgs,
+    pub(super) body: BodyArgs,
 
     /// Units of starts, ranges and results
     #[arg(long, value_enum, value_name = "UNITS", default_value_t = Convention::Nondimensional)]
@@ -182,7 +181,7 @@ impl NumbersArgs {
             Parameter::Damping => self.damping = value,
             Parameter::SecondGap => self.second_gap = value.map(MaybeLength::Plain),
             Parameter::SecondRestitution => self.second_restitution = value,
-            Parameter::Physical(_) => {}
+            Parameter::Body(_) => {}
         }
     }
 
@@ -196,16 +195,14 @@ impl NumbersArgs {
     }
 
     /// Whether there is a second stop with the restitution of the first.
-    pub(super) fn second_stop_follows(&self, body: &PhysicalArgs) -> bool {
+    pub(super) fn second_stop_follows(&self, body: &BodyArgs) -> bool {
         (self.second_gap.is_some() || body.has_second_stop()) && self.second_restitution.is_none()
     }
 
     /// The numbers of the body, with gaps that are written with a unit.
-    pub(super) fn body(&self, body: &PhysicalArgs) -> PhysicalArgs {
+    pub(super) fn body(&self, body: &BodyArgs) -> BodyArgs {
         let mut body = body.clone();
-        for (parameter, given) in
-            [(PhysicalParameter::Gap, &self.gap), (PhysicalParameter::SecondGap, &self.second_gap)]
-        {
+        for (parameter, given) in [(BodyNumber::Gap, &self.gap), (BodyNumber::SecondGap, &self.second_gap)] {
             if let Some(metres) = given.as_ref().and_then(MaybeLength::metres) {
                 body.put(parameter, metres.clone());
             }
@@ -216,9 +213,9 @@ impl NumbersArgs {
     /// The system with the first value of each range; `set` gives numbers of the body that vary their first values.
     pub(super) fn first(
         &self,
-        body: &PhysicalArgs,
+        body: &BodyArgs,
         units: Convention,
-        set: &[(PhysicalParameter, f64)],
+        set: &[(BodyNumber, f64)],
     ) -> Result<Asked, Failure> {
         let body = self.body(body);
         let (restitution, second) = (self.value(Parameter::Restitution), self.value(Parameter::SecondRestitution));
@@ -241,7 +238,7 @@ impl NumbersArgs {
                 restitution,
                 damping: self.value(Parameter::Damping).unwrap_or(0.0),
                 second_stop: second_gap.map(|gap| SecondStop { gap, restitution: second.unwrap_or(restitution) }),
-                machine: None,
+                body: None,
             };
             return Ok(Asked { system, units: Units::default() });
         }
@@ -251,7 +248,7 @@ impl NumbersArgs {
             let flag = flag(parameter);
             return Err(Failure::bad(format!("--{flag} cannot go together with a system in physical units")));
         }
-        super::physical::asked(&plan, units == Convention::Si)
+        super::body::asked(&plan, units == Convention::Si)
     }
 
     /// The gap of a nondimensional system; an error if a required number is missing.
@@ -281,10 +278,9 @@ impl SystemArgs {
     }
 
     /// The same, with numbers of the body that vary and have these first values.
-    pub(super) fn asked_with(&self, set: &[(PhysicalParameter, f64)]) -> Result<Asked, Failure> {
-        self.machine
-            .one_value("`vibro map`, `vibro region` and `vibro response` take ranges; --vary FLAG elsewhere")?;
-        self.numbers.first(&self.machine, self.units, set)
+    pub(super) fn asked_with(&self, set: &[(BodyNumber, f64)]) -> Result<Asked, Failure> {
+        self.body.one_value("`vibro map`, `vibro region` and `vibro response` take ranges; --vary FLAG elsewhere")?;
+        self.numbers.first(&self.body, self.units, set)
     }
 
     /// The same with results in SI units.
@@ -293,7 +289,7 @@ impl SystemArgs {
     }
 
     /// Whether it is given in physical units.
-    pub(crate) fn is_machine(&self) -> bool {
-        self.machine.any()
+    pub(crate) fn is_body(&self) -> bool {
+        self.body.any()
     }
 }

@@ -1,24 +1,23 @@
 //! VARY: parameters that vary over ranges, and the system without them.
 
 use super::SystemArgs;
+use super::body::alone;
 use super::parameter_flag::{ParameterFlag, flag};
-use super::physical::alone;
 use super::system::without_second_restitution;
 use crate::failure::Failure;
-use vibroimpact::PhysicalParameter;
 use vibroimpact_report::Asked;
-use vibroimpact_study::Parameter;
+use vibroimpact_study::{BodyNumber, Parameter};
 
 impl SystemArgs {
-    /// The system with results in SI units if one of these parameters is a number of a machine, whose first values are
+    /// The system with results in SI units if one of these parameters is a number of a body, whose first values are
     /// given for those that are not given otherwise.
-    fn with_first(&self, varied: &[ParameterFlag], set: &[(PhysicalParameter, f64)]) -> Result<Asked, Failure> {
-        let Some(si) = varied.iter().find(|named| named.machine().is_some()) else { return self.asked() };
-        if !self.is_machine() {
+    fn with_first(&self, varied: &[ParameterFlag], set: &[(BodyNumber, f64)]) -> Result<Asked, Failure> {
+        let Some(si) = varied.iter().find(|named| named.number().is_some()) else { return self.asked() };
+        if !self.is_body() {
             let twin = match si.parameter {
-                Parameter::Physical(PhysicalParameter::Frequency) => "; beta is nondimensional",
-                Parameter::Physical(PhysicalParameter::Gap) => "; gap is nondimensional",
-                Parameter::Physical(PhysicalParameter::SecondGap) => "; second-gap is nondimensional",
+                Parameter::Body(BodyNumber::Frequency) => "; beta is nondimensional",
+                Parameter::Body(BodyNumber::Gap) => "; gap is nondimensional",
+                Parameter::Body(BodyNumber::SecondGap) => "; second-gap is nondimensional",
                 _ => "",
             };
             return Err(Failure::bad(format!(
@@ -47,22 +46,22 @@ impl SystemArgs {
                     flag(*parameter)
                 )));
             }
-            if *parameter == Parameter::Restitution && args.numbers.second_stop_follows(&args.machine) {
+            if *parameter == Parameter::Restitution && args.numbers.second_stop_follows(&args.body) {
                 return Err(without_second_restitution());
             }
         }
-        let machine = args.is_machine();
+        let body = args.is_body();
         let restitution = |p: Parameter| matches!(p, Parameter::Restitution | Parameter::SecondRestitution);
         for (ParameterFlag { parameter }, first, _) in varied {
-            if !machine || restitution(*parameter) {
+            if !body || restitution(*parameter) {
                 args.numbers.set(*parameter, Some(*first));
             }
         }
-        let set: Vec<(PhysicalParameter, f64)> =
-            varied.iter().filter_map(|(named, first, _)| Some((named.machine()?, *first))).collect();
+        let set: Vec<(BodyNumber, f64)> =
+            varied.iter().filter_map(|(named, first, _)| Some((named.number()?, *first))).collect();
         let mut asked = args.with_first(&varied.iter().map(|(named, ..)| *named).collect::<Vec<_>>(), &set)?;
         for (ParameterFlag { parameter }, first, _) in varied {
-            if machine && !restitution(*parameter) {
+            if body && !restitution(*parameter) {
                 asked.system = asked.system.with(*parameter, first / asked.units.of(*parameter))?;
             }
         }
@@ -70,17 +69,17 @@ impl SystemArgs {
     }
 }
 
-/// The parameters of a curve or a region. They are parameters of the oscillator where each number of a machine that varies
-/// changes one of these alone, as its frequency does; their units change too then. Otherwise they are numbers of the machine.
+/// The parameters of a curve or a region. They are parameters of the oscillator where each number of a body that varies
+/// changes one of these alone, as its frequency does; their units change too then. Otherwise they are numbers of the body.
 pub(crate) fn of_oscillator(asked: &mut Asked, varied: &[ParameterFlag]) -> Vec<Parameter> {
-    let machine = asked.units.machine;
-    let own = |named: &ParameterFlag| match (named.parameter, machine) {
-        (Parameter::Physical(parameter), Some(machine)) => alone(parameter, &machine),
+    let body = asked.units.body;
+    let own = |named: &ParameterFlag| match (named.parameter, body) {
+        (Parameter::Body(number), Some(body)) => alone(number, &body),
         (parameter, _) => Some(parameter),
     };
     let Some(parameters) = varied.iter().map(own).collect::<Option<Vec<_>>>() else {
         return varied.iter().map(|named| named.parameter).collect();
     };
-    asked.units.hertz = varied.iter().any(|named| named.machine() == Some(PhysicalParameter::Frequency));
+    asked.units.hertz = varied.iter().any(|named| named.number() == Some(BodyNumber::Frequency));
     parameters
 }

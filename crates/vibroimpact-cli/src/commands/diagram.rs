@@ -17,7 +17,7 @@ use vibroimpact_study::{DiagramPlan, PlanError, System, Task, Values, Variable};
 
 /// The orbit diagram: impacts or states after the transient, over one parameter or along a line through two
 ///
-/// The parameter that varies is left out of the system (a machine in physical units is given completely, and the value is
+/// The parameter that varies is left out of the system (a body in physical units is given completely, and the value is
 /// replaced).
 ///
 /// A sweep starts at rest and carries the state from value to value, so sweeps up and down differ where motions coexist.

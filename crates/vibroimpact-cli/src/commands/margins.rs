@@ -113,8 +113,8 @@ pub(super) fn run(args: &Margins, session: &Session) -> Result<(), Failure> {
 impl Margins {
     /// The system with its units, and the parameters that vary; none stands for all.
     fn varied(&self) -> Result<(Asked, Vec<ScaledParameter>), Failure> {
-        let machine = self.system.is_machine();
-        let asked = if machine { self.system.in_si().asked()? } else { self.system.asked()? };
+        let body = self.system.is_body();
+        let asked = if body { self.system.in_si().asked()? } else { self.system.asked()? };
         let known = MarginsPlan::parameters(&asked.system);
         let vary = self.vary.iter().map(Varied::parameter).collect::<Result<Vec<ParameterFlag>, Failure>>()?;
         let scales = self.scale.iter().map(VariedNamed::of_oscillator).collect::<Result<Vec<Named<f64>>, Failure>>()?;
@@ -125,7 +125,7 @@ impl Margins {
                 Parameter::Beta | Parameter::InverseBeta | Parameter::Gap | Parameter::SecondGap | Parameter::Damping
             )
         };
-        if let Some(wrong) = named.clone().find(|named| machine && nondimensional(named.parameter)) {
+        if let Some(wrong) = named.clone().find(|named| body && nondimensional(named.parameter)) {
             return Err(Failure::bad(format!(
                 "{} is nondimensional, and margins of a system in physical units are in SI units\nhint: {}",
                 wrong.flag(),

@@ -1,7 +1,7 @@
 //! `vibro region`: the regions of a plane of two parameters in which a motion exists and in which it is stable.
 
 use crate::args::{
-    AxesArgs, Convention, MachineArgs, NumbersArgs, OutputArgs, PhysicalArgs, VariedOver, of_oscillator, ranges, whole,
+    AxesArgs, BodyArgs, Convention, MachineArgs, NumbersArgs, OutputArgs, VariedOver, of_oscillator, ranges, whole,
 };
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
@@ -13,7 +13,7 @@ use vibroimpact_study::{DEFAULT_GRID, RegionPlan, Stretch, Variable};
 
 /// Where a motion exists and where it is stable, over two parameters: closed polygons
 ///
-/// Two parameters are given as ranges A:B, the others as values; ranges replace values of a machine in physical units.
+/// Two parameters are given as ranges A:B, the others as values; ranges replace values of a body in physical units.
 /// Orbits are searched for on a grid. From each orbit the boundary of its part of the region is followed along the curves
 /// that bound it: fold (two orbits meet), flip (a multiplier is -1), no speed (an impact has speed zero), touch (a flight
 /// touches a stop), merging (with an orbit of half the period), frame. The surface of orbits folds, so polygons of
@@ -60,7 +60,7 @@ pub(crate) struct Region {
     axes: AxesArgs,
 
     #[command(flatten)]
-    machine: PhysicalArgs,
+    body: BodyArgs,
     #[command(flatten)]
     of_machine: MachineArgs,
 
@@ -113,7 +113,7 @@ impl Region {
 pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
     let mut plane = None;
     let system = args.of_machine.or_oscillator(None, || {
-        let (asked, over) = args.system.over_ranges((&args.machine, args.units), &[], of_oscillator)?;
+        let (asked, over) = args.system.over_ranges((&args.body, args.units), &[], of_oscillator)?;
         let (across, up) = args.plane(over)?;
         plane =
             Some([across, up].map(|side| Stretch { parameter: side.parameter.into(), from: side.from, to: side.to }));

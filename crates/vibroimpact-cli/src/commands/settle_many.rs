@@ -1,7 +1,7 @@
 //! `vibro settle-many`: the motions at many points of parameters and starts, listed or drawn.
 
 use crate::args::{
-    Convention, FieldsArgs, MachineArgs, NumbersArgs, OutputArgs, PhysicalArgs, Ranged, StartOfMachineArgs, StoreArgs,
+    BodyArgs, Convention, FieldsArgs, MachineArgs, NumbersArgs, OutputArgs, Ranged, StartOfMachineArgs, StoreArgs,
     VariedOver, place, ranges, whole,
 };
 use crate::commands::outputs::Outputs;
@@ -63,7 +63,7 @@ pub(crate) struct SettleMany {
     system: NumbersArgs,
 
     #[command(flatten)]
-    machine: PhysicalArgs,
+    body: BodyArgs,
     #[command(flatten)]
     of_machine: MachineArgs,
     #[command(flatten)]
@@ -225,7 +225,7 @@ impl SettleMany {
         let as_they_are = |_: &mut Asked, flags: &[crate::args::ParameterFlag]| {
             flags.iter().map(|named| named.parameter).collect::<Vec<_>>()
         };
-        self.system.over_ranges((&self.machine, self.units), first, as_they_are)
+        self.system.over_ranges((&self.body, self.units), first, as_they_are)
     }
 }
 

@@ -67,7 +67,7 @@ fn polygons(
 
 /// Whether a number in SI units varies.
 const fn is_physical(stretch: &Stretch) -> bool {
-    matches!(stretch.parameter, Parameter::Physical(_))
+    matches!(stretch.parameter, Parameter::Body(_))
 }
 
 fn row(k: usize, polygon: &Polygon, (x, y): (f64, f64)) -> Vec<String> {

@@ -34,9 +34,9 @@ pub(crate) fn system(asked: &Asked, osc: &Oscillator) -> String {
         let _ = writeln!(
             text,
             "scales  one unit of length {} m, of time {} s, of velocity {} m/s",
-            short(scales.length_m),
-            short(scales.time_s),
-            short(scales.velocity_m_per_s())
+            short(scales.length),
+            short(scales.time),
+            short(scales.velocity())
         );
     }
     if let Some(frame) = asked.units.frame {

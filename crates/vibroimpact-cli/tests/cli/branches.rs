@@ -126,7 +126,7 @@ fn other_parameters_and_the_other_way() {
     }
 }
 
-/// The numbers of a machine vary themselves, so both ends of a branch are printed as they were typed.
+/// The numbers of a body vary themselves, so both ends of a branch are printed as they were typed.
 #[test]
 fn typed_ends_come_back() {
     let machine = "branch --mass-kg 0.8 --stiffness-n-per-m 12000 --force-n 30 --damping-ratio 0.02 --restitution 0.65 \

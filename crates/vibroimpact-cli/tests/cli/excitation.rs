@@ -148,7 +148,7 @@ fn each_value_of_a_sweep_is_a_machine() {
     }
 }
 
-/// A branch over a number of a machine meets the events of the branch over the parameters that it changes.
+/// A branch over a number of a body meets the events of the branch over the parameters that it changes.
 #[test]
 fn a_branch_over_the_force_is_one_over_the_gap() {
     let machine = "--mass-kg 0.8 --stiffness-n-per-m 12000 --damping-ratio 0.02 --gap-m 0.0015 --restitution 0.65 --frequency-hz 20";
@@ -199,7 +199,7 @@ fn harmonics_and_transient() {
 }
 
 /// Along a line through both gaps, the stops of a machine may leave no room after the first change alone. And a map over
-/// any number of a machine has its range.
+/// any number of a body has its range.
 #[test]
 fn both_gaps_of_a_machine_move_together() {
     let machine = "--mass-kg 0.7 --stiffness-n-per-m 900 --force-n 3 --frequency-hz 4.5 --restitution 0.7";

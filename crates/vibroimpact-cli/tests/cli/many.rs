@@ -78,7 +78,7 @@ fn a_sample_is_resumed_and_divided() {
     assert!(told(here, "verify cube.zarr --sample 3").contains("12"));
 }
 
-/// One start is that of `settle`, and a machine in SI units has the same motions as its oscillator.
+/// One start is that of `settle`, and a body in SI units has the same motions as its oscillator.
 #[test]
 fn the_same_motions_as_settle_and_in_other_units() {
     let folder = tempfile::tempdir().unwrap();

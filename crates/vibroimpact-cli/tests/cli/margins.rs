@@ -74,7 +74,7 @@ fn a_machine_in_si_units() {
     let scaled = json(&format!("margins {MACHINE} --vary gap-m,damping-ratio --scale gap-m=0.0003"));
     assert!((number(&of(&scaled, "gap_m")["scale"]) - 0.0003).abs() < 1e-15);
     assert_eq!(scaled["parameters"].as_array().unwrap().len(), 2);
-    // each number of the machine varies, and its force depends on the motion of the base
+    // each number of the body varies, and its force depends on the motion of the base
     let base = MACHINE.replace("--force-n 30", "--base-acceleration-m-per-s2 30");
     let moved = json(&format!("margins {base} --lines 0"));
     let names: Vec<&str> =

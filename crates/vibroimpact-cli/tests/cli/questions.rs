@@ -105,7 +105,7 @@ fn of_every_task() {
     }
 }
 
-/// The command of a machine has the numbers of the machine, and starts in metres.
+/// The command of a body has the numbers of the body, and starts in metres.
 #[test]
 fn of_a_machine_in_its_units() {
     let machine = json!({ "mass_kg": 0.8, "stiffness_n_per_m": 12000, "force_n": 30, "frequency_hz": 15.5, "gap_m": 0.0015,

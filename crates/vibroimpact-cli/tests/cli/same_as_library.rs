@@ -15,8 +15,7 @@ const MACHINE: &str =
 fn units(object: &Value) -> Units {
     let scales = &object["system"]["scales"];
     let number = |key: &str| scales[key].as_f64();
-    let scales =
-        || Some(Scales { length_m: number("length_m")?, time_s: number("time_s")?, mass_kg: number("mass_kg")? });
+    let scales = || Some(Scales { length: number("length_m")?, time: number("time_s")?, mass: number("mass_kg")? });
     let hertz = object["plan"]["units"]["hertz"] == true;
     // a plan in SI units has its machine; the units of other plans have none
     Units { scales: scales(), si: object["units"] == "si", hertz, ..Units::default() }

@@ -24,7 +24,7 @@ _COORDINATES = (
 @lru_cache(maxsize=1)
 def _known() -> dict[str, str]:
     """The names by the long names."""
-    coordinates = (*_COORDINATES, *_core.machine_parameters())
+    coordinates = (*_COORDINATES, *_core.body_parameters())
     return {**_FIELDS, **{_core.coordinate_words(name)[0]: name for name in coordinates}}
 
 

@@ -48,6 +48,7 @@ class Questions:
         region = _questions.region
         margins = _questions.margins
         response = _questions.response
+        edge = _questions.edge
         basin = _questions.basin
         map = _questions.region_map
         diagram = _questions.orbit_diagram
@@ -277,7 +278,7 @@ class Oscillator(Questions):
 
     def _changed_body(self, changes: dict[str, Any]) -> "Oscillator | None":
         """The same body with other numbers; None if something else is to change."""
-        allowed = {"restitution", "second_restitution", "beta", "inverse_beta", *_core.machine_parameters()}
+        allowed = {"restitution", "second_restitution", "beta", "inverse_beta", *_core.body_parameters()}
         # a second stop that is new has the restitution of the first, as for any oscillator
         new = {"second_gap_m", "second_restitution"} if self.second_gap is None else set()
         if not all(name in allowed - new and isinstance(value, (int, float)) for name, value in changes.items()):

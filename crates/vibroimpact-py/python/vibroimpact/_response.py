@@ -65,7 +65,7 @@ class Response(View):
     branches : list of ResponseCurve
         The branches on which their cycles lie.
     units : dict of str
-        The unit of each quantity; those of SI over a number of a machine.
+        The unit of each quantity; those of SI over a number of a body.
     plan : str
         The plan as JSON.
     """

@@ -30,7 +30,7 @@ def attributes(units: Units | None) -> dict[str, float]:
 def converted(ds: "xr.Dataset", units: Units | None) -> "xr.Dataset":
     """The Dataset in metres and seconds, converted with the given units or those in its attributes.
 
-    Coordinates of starts are in the units of the machine of the plan. Results over a number of the machine, such as the
+    Coordinates of starts are in the units of the body of the plan. Results over a number of the body, such as the
     force, are in the units of the machine at each point.
     """
     if ds.attrs.get("units") == "si":
@@ -47,7 +47,7 @@ def converted(ds: "xr.Dataset", units: Units | None) -> "xr.Dataset":
     changed: dict[str, xr.DataArray] = {}
     for name, of in ds.variables.items():
         scale, unit = of.attrs.get("scale"), of.attrs.get("units") or "1"
-        if name in _core.machine_parameters():
+        if name in _core.body_parameters():
             continue
         known = scale in fixed if scale else unit in _PLAIN
         if not known:
@@ -83,10 +83,10 @@ def _factors(length: Any, time: Any, mass: Any) -> _Factors:
 
 
 def _scales(ds: "xr.Dataset", units: Units) -> tuple[Any, Any, Any]:
-    """The units of length, time and mass; over numbers of the machine, arrays with these dimensions."""
+    """The units of length, time and mass; over numbers of the body, arrays with these dimensions."""
     import xarray as xr
 
-    names = [str(name) for name in ds.coords if name in _core.machine_parameters()]
+    names = [str(name) for name in ds.coords if name in _core.body_parameters()]
     system = ds.attrs.get("system") or json.dumps(json.loads(ds.attrs.get("plan", "{}")).get("system"))
     if not names or system == "null":
         return units.length_m, units.time_s, units.mass_kg

@@ -48,7 +48,7 @@ def symbol(name: str) -> str:
 
 def named(ds: "xr.Dataset", name: str) -> str:
     """The symbol of a coordinate for an axis, with its unit in a Dataset in metres and seconds; a number of a body in words."""
-    if words := _core.machine_parameters().get(name):
+    if words := _core.body_parameters().get(name):
         return words
     unit = _unit(ds, name)
     return f"{_sign(ds, name)} ({unit})" if unit else _sign(ds, name)
@@ -88,7 +88,7 @@ def title(ds: "xr.Dataset", axes: tuple[str, ...]) -> str:
     lost = {name for name in varied(plan) if name not in ds.coords and name not in axes}
     given = "beta" if "beta" in plan.get("system", {}) else "inverse_beta"
     drawn = set(axes) | ({*_FREQUENCIES} if {*_FREQUENCIES} & set(axes) else set())
-    if not set(varied(plan)).isdisjoint(_core.machine_parameters()):
+    if not set(varied(plan)).isdisjoint(_core.body_parameters()):
         # a number of the body may change each of these
         drawn |= {*_FREQUENCIES, "gap", "damping", "second_gap"}
     # of beta and its inverse, state the one that varies, or else the one that was given

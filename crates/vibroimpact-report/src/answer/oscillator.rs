@@ -16,16 +16,16 @@ use crate::json::system::SystemObject;
 use crate::response::ResponseView;
 use crate::scene::{BifurcationDiagram, View, Viewed, phase_portrait, strobes};
 use crate::{AnswerError, Asked, ReportError, ShownValue as _, Table, Units, figure, table};
+use vibroimpact::Start;
 use vibroimpact::chaos::{Exponents, Section};
 use vibroimpact::continuation::SolutionPoint;
 use vibroimpact::motion::Event;
 use vibroimpact::verdict::{Census, Settled, Verdict};
-use vibroimpact::{Parameter, Start};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::diagram::Show;
 use vibroimpact_study::{
-    Basin, Branches, CurvePlan, Cut, EventCurve, Name as _, Orbit, PlanError, ResponseCurves, Simulated, SystemPlan,
-    Task,
+    Basin, Branches, CurvePlan, Cut, EventCurve, Name as _, Orbit, Parameter, PlanError, ResponseCurves, Simulated,
+    SystemPlan, Task,
 };
 
 impl AnswerOf<SystemPlan> {
@@ -60,6 +60,15 @@ impl Told for SystemPlan {
             _ => of.start,
         };
         StateObject::of_oscillator(&start, &of.units)
+    }
+
+    fn numbers(of: &AnswerOf<Self>, start: &Start) -> (Vec<f64>, Vec<f64>) {
+        (vec![start.x * of.units.length()], vec![start.v * of.units.velocity()])
+    }
+
+    fn names(of: &AnswerOf<Self>) -> (Vec<String>, Vec<String>) {
+        let name = |plain: &str, si: &str| vec![if of.units.si { format!("{plain}_{si}") } else { plain.to_owned() }];
+        (name("x", "m"), name("v", "m_per_s"))
     }
 
     fn motion<'a>(of: &'a AnswerOf<Self>, verdict: &'a Verdict) -> MotionObject<'a> {
@@ -183,7 +192,7 @@ mod tests {
         restitution: 0.5,
         damping: 0.0,
         second_stop: None,
-        machine: None,
+        body: None,
     };
 
     #[test]

@@ -6,6 +6,7 @@ pub mod branch;
 pub mod coloured;
 pub mod curve;
 pub mod diagram;
+pub mod edge;
 pub mod machine;
 pub mod machine_waveform;
 pub mod map;
@@ -26,10 +27,9 @@ pub mod waveform;
 
 use crate::number::short;
 use crate::{Asked, Units, Varied};
-use vibroimpact::PhysicalParameter;
 use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::{Colour, SERIES, plain};
-use vibroimpact_study::{Cut, Parameter};
+use vibroimpact_study::{BodyNumber, Cut, Parameter};
 
 /// The title of a figure: the parameters, with the frequency in the form in which it was given, in the units of the
 /// results.
@@ -56,8 +56,8 @@ pub fn title_without(Asked { system, units }: &Asked, varied: &[Parameter]) -> S
         }
     }
     given.retain(|(parameter, _)| !varied.iter().any(|other| same_in_title(*other, *parameter)));
-    // the frequency of a machine is in Hz, whatever varies
-    let units = &Units { hertz: units.hertz || units.machine.is_some(), ..*units };
+    // the frequency of a body is in Hz, whatever varies
+    let units = &Units { hertz: units.hertz || units.body.is_some(), ..*units };
     let part = |(parameter, value): &(Parameter, f64)| {
         let (unit, number) = (units.unit_of(*parameter), short(value * units.of(*parameter)));
         match unit {
@@ -73,18 +73,17 @@ pub fn title_without(Asked { system, units }: &Asked, varied: &[Parameter]) -> S
 
 /// Whether a parameter that varies determines a number of the title.
 fn same_in_title(varied: Parameter, number: Parameter) -> bool {
-    let Parameter::Physical(varied) = varied else { return varied.same_number(number) };
+    let Parameter::Body(varied) = varied else { return varied.same_number(number) };
     match varied {
-        PhysicalParameter::Frequency => number.is_frequency(),
-        PhysicalParameter::Gap => number == Parameter::Gap,
-        PhysicalParameter::SecondGap => number == Parameter::SecondGap,
-        PhysicalParameter::Gaps => matches!(number, Parameter::Gap | Parameter::SecondGap),
-        PhysicalParameter::Restitutions => matches!(number, Parameter::Restitution | Parameter::SecondRestitution),
+        BodyNumber::Frequency => number.is_frequency(),
+        BodyNumber::Gap => number == Parameter::Gap,
+        BodyNumber::SecondGap => number == Parameter::SecondGap,
+        BodyNumber::Gaps => matches!(number, Parameter::Gap | Parameter::SecondGap),
+        BodyNumber::Restitutions => matches!(number, Parameter::Restitution | Parameter::SecondRestitution),
         // the damping ratio of a given coefficient changes with the mass and the stiffness
-        PhysicalParameter::Mass
-        | PhysicalParameter::Stiffness
-        | PhysicalParameter::DampingRatio
-        | PhysicalParameter::DampingCoefficient => number == Parameter::Damping,
+        BodyNumber::Mass | BodyNumber::Stiffness | BodyNumber::DampingRatio | BodyNumber::DampingCoefficient => {
+            number == Parameter::Damping
+        }
         _ => false,
     }
 }
@@ -111,7 +110,7 @@ pub const fn symbol(parameter: Parameter) -> &'static str {
         Parameter::Damping => "*ζ*",
         Parameter::SecondGap => "*δ*_2",
         Parameter::SecondRestitution => "*ε*_2",
-        Parameter::Physical(parameter) => parameter.description(),
+        Parameter::Body(number) => number.description(),
     }
 }
 
@@ -120,7 +119,7 @@ pub const fn symbol(parameter: Parameter) -> &'static str {
 pub fn named(parameter: Parameter, units: &Units) -> String {
     match units.unit_of(parameter) {
         "" => symbol(parameter).into(),
-        unit if matches!(parameter, Parameter::Physical(_)) => format!("{} ({unit})", symbol(parameter)),
+        unit if matches!(parameter, Parameter::Body(_)) => format!("{} ({unit})", symbol(parameter)),
         "Hz" => "frequency (Hz)".into(),
         unit if parameter == Parameter::SecondGap => format!("second gap ({unit})"),
         unit => format!("gap ({unit})"),

@@ -232,7 +232,7 @@ mod tests {
 
     /// The branch of an oscillator with these points.
     fn with_points(points: &[SolutionPoint], vary: Parameter, system: SystemPlan) -> BranchObject<'_> {
-        let cut = Cut { vary, ends: (0.0, 1.0), also: None };
+        let cut = Cut { vary: vary.into(), ends: (0.0, 1.0), also: None };
         BranchObject::of_oscillator(points, None, &cut, &Asked { system, units: Units::default() })
     }
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 use vibroimpact::machine::Machine;
 use vibroimpact::{Oscillator, Side};
-use vibroimpact_study::{FramePlan, Parameter, PhysicalPlan};
+use vibroimpact_study::{FramePlan, Parameter};
 
 /// A system.
 #[derive(JsonSchema, Serialize)]
@@ -39,10 +39,10 @@ impl Scales {
     fn new(units: &Units) -> Option<Self> {
         let scales = units.scales?;
         Some(Self {
-            length_m: scales.length_m,
-            time_s: scales.time_s,
-            mass_kg: scales.mass_kg,
-            velocity_m_per_s: scales.velocity_m_per_s(),
+            length_m: scales.length,
+            time_s: scales.time,
+            mass_kg: scales.mass,
+            velocity_m_per_s: scales.velocity(),
             frame: units.frame,
         })
     }
@@ -93,11 +93,8 @@ fn of_parameters(asked: &Asked, osc: &Oscillator, varied: &[Parameter]) -> Map<S
 /// The numbers of a body in physical units that do not vary; `None` if none of them varies. One that varies may determine several
 /// parameters of the oscillator, so these are not listed then.
 fn of_body(asked: &Asked, varied: &[Parameter]) -> Option<Map<String, Value>> {
-    let numbers = varied.iter().filter_map(|parameter| match parameter {
-        Parameter::Physical(number) => Some(*number),
-        _ => None,
-    });
-    let mut body = PhysicalPlan::from(asked.system.machine.as_ref()?);
+    let numbers = varied.iter().filter_map(|parameter| parameter.of_body());
+    let mut body = asked.system.body?;
     let mut any = false;
     for number in numbers {
         body.set(number, None);

@@ -1,31 +1,30 @@
 //! A plan as the words of a `vibro` command.
 
-use super::machine::numbers_of;
+use super::body::numbers_of;
 use super::number;
 use crate::Units;
 use crate::units::{given, shown_span};
-use vibroimpact::{DrivenOscillator, PhysicalParameter, Shaking};
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{
-    Axis, BasinPlan, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan,
-    MapPlan, MarginsPlan, Name, Parameter, Plan, Quantity, RegionPlan, ResponsePlan, StartPlan, Stretch, SystemPlan,
-    Target, Task, Values, Variable,
+    Axis, BasinPlan, Body, BodyNumber, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID,
+    DiagramPlan, EdgePlan, LyapunovPlan, MapPlan, MarginsPlan, Name, Parameter, PlacePlan, Plan, Quantity, RegionPlan,
+    ResponsePlan, StartPlan, Stretch, SystemPlan, Target, Task, Values, Variable,
 };
 
 /// The words of the `vibro` command for a plan, beginning with `vibro`. Its flags give exactly this plan: in nondimensional
-/// units, or those of its machine.
+/// units, or those of its body.
 ///
 /// Refinement and the size of tiles need a store, so a plan with these has the flag for a store, such as `map.zarr`.
 /// Points of the sections of an attractor need a figure, so a plan with these has the flag for `attractor.svg`. Returns
 /// `None` for plans that no flags can express: a basin over anything but position and velocity or over a list of
-/// values, exponents over axes, a map over a list of one value, units without a machine, and parameters of the oscillator that
-/// vary in a machine.
+/// values, exponents over axes, a map over a list of one value, units without a body, and parameters of the oscillator that
+/// vary in a body.
 #[must_use]
 pub fn command(plan: &Plan) -> Option<Vec<String>> {
     let plan = plan.complete().ok()?;
     let system = plan.oscillator()?;
     let units = &Units::of_plan(&plan);
-    if units.si != system.machine.is_some() || (units.si && !varied(&plan.task).all(of_machine)) {
+    if units.si != system.body.is_some() || (units.si && !varied(&plan.task).all(of_body)) {
         return None;
     }
     let mut line = match &plan.task {
@@ -54,6 +53,20 @@ pub fn command(plan: &Plan) -> Option<Vec<String>> {
             line.unless_amplitude(task.quantity()).given("impacts", task.impacts)
         }
         Task::Margins(task) => margins(system, &task.typed().ok()?, units),
+        Task::Edge(task) => {
+            let task: EdgePlan = task.typed().ok()?;
+            let place = |one: &PlacePlan| {
+                let unit = match one.coordinate {
+                    Coordinate::X => units.length(),
+                    Coordinate::V => units.velocity(),
+                    _ => 1.0,
+                };
+                format!("{}={}", one.coordinate.name(), number(one.value * unit))
+            };
+            let other: Vec<String> = task.other.iter().map(place).collect();
+            let line = Line::new("edge").system(system, &[]).start(&task.start.unwrap_or_default(), units);
+            line.flag("other", other.join(",")).given("laps", task.laps).given("impacts", task.impacts)
+        }
         Task::SettleMany(_) => return None,
     };
     let (refine, name) = match &plan.task {
@@ -97,9 +110,9 @@ const fn parameter(vary: Coordinate) -> Option<Parameter> {
     if let Coordinate::Parameter(parameter) = vary { Some(parameter) } else { None }
 }
 
-/// Whether a parameter has a flag for a machine.
-const fn of_machine(parameter: Parameter) -> bool {
-    matches!(parameter, Parameter::Physical(_) | Parameter::Restitution | Parameter::SecondRestitution)
+/// Whether a parameter has a flag for a body.
+const fn of_body(parameter: Parameter) -> bool {
+    matches!(parameter, Parameter::Body(_) | Parameter::Restitution | Parameter::SecondRestitution)
 }
 
 /// A command line under construction.
@@ -138,8 +151,8 @@ impl Line {
 
     /// Adds the parameters of a system. Those that vary are replaced by the given texts, or left out.
     fn system(mut self, system: &SystemPlan, varied: &[(Parameter, Option<String>)]) -> Self {
-        if let Some(machine) = &system.machine {
-            return self.machine(machine, varied);
+        if let Some(body) = &system.body {
+            return self.body(body, varied);
         }
         let second = system.second_stop;
         let values = [
@@ -160,12 +173,12 @@ impl Line {
         self
     }
 
-    /// Adds the numbers of a machine; those that vary as by [`Self::system`]. A number that varies replaces another form
+    /// Adds the numbers of a body; those that vary as by [`Self::system`]. A number that varies replaces another form
     /// of it.
-    fn machine(mut self, machine: &DrivenOscillator, varied: &[(Parameter, Option<String>)]) -> Self {
+    fn body(mut self, body: &Body, varied: &[(Parameter, Option<String>)]) -> Self {
         let varies = |name: &str| varied.iter().find(|(parameter, _)| parameter.name() == name);
         let mut left: Vec<&(Parameter, Option<String>)> = varied.iter().collect();
-        for (name, value) in numbers_of(machine) {
+        for (name, value) in numbers_of(body) {
             self = match varies(name) {
                 Some(one) => {
                     left.retain(|other| *other != one);
@@ -174,12 +187,12 @@ impl Line {
                 None => self.given(name, value.map(number)),
             };
         }
-        // a number that has no flag of its own in the machine, such as both gaps together
+        // a number that has no flag of its own in the body, such as both gaps together
         self = left.into_iter().fold(self, |line, (parameter, words)| line.given(parameter.name(), words.clone()));
-        if machine.excitation.base != Shaking::default() && machine.excitation.stop != machine.excitation.base {
+        if body.stop_in_space {
             self.words.push("--stop-in-space".to_owned());
         }
-        // maps and responses of a machine are always in its units
+        // maps and responses of a body are always in its units
         if ["map", "response"].contains(&self.words[1].as_str()) { self } else { self.flag("units", "si") }
     }
 
@@ -242,8 +255,8 @@ fn flag(parameter: Parameter) -> String {
 
 /// The order of the axes, if it differs from the order of the flags.
 fn order<T>(varied: &[(Parameter, T)]) -> Option<String> {
-    // flags of a machine come first
-    let all = || PhysicalParameter::ALL.into_iter().map(Parameter::Physical).chain(Parameter::ALL);
+    // flags of a body come first
+    let all = || BodyNumber::ALL.into_iter().map(Parameter::Body).chain(Parameter::ALL);
     let place = |(parameter, _): &(Parameter, T)| all().position(|other| other == *parameter);
     let names = || varied.iter().map(|(parameter, _)| flag(*parameter)).collect::<Vec<_>>();
     (!varied.is_sorted_by_key(place)).then(|| names().join(","))

@@ -1,7 +1,7 @@
 //! The same question in two other forms: as a command line, and as a call in Python.
 
+mod body;
 mod command;
-mod machine;
 mod python;
 mod shell;
 

@@ -1,14 +1,13 @@
 //! A plan as a call of the Python package.
 
-use super::machine::{numbers_of, without_unit};
+use super::body::{numbers_of, without_unit};
 use super::number;
 use crate::scene::{SECTION_POINTS, View};
-use vibroimpact::DrivenOscillator;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{
-    Axis, BasinPlan, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan,
-    MapPlan, MarginsPlan, PhysicalPlan, Plan, Quantity, RegionPlan, ResponsePlan, StartPlan, Stretch, SystemPlan,
-    Target, Task, Values,
+    Axis, BasinPlan, Body, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan,
+    EdgePlan, LyapunovPlan, MapPlan, MarginsPlan, Plan, Quantity, RegionPlan, ResponsePlan, StartPlan, Stretch,
+    SystemPlan, Target, Task, Values,
 };
 
 /// A few lines of Python for a plan, whose numbers are nondimensional unless their names end in a unit; `None` for an invalid plan, and for a study of points.
@@ -75,6 +74,12 @@ pub fn python(plan: &Plan) -> Option<String> {
             ("found", call.given("impacts", task.impacts))
         }
         Task::Margins(task) => ("margins", margins(&task.typed().ok()?)),
+        Task::Edge(task) => {
+            let task: EdgePlan = task.typed().ok()?;
+            let other = mapping(task.other.iter().map(|one| (one.coordinate.name(), number(one.value))));
+            let call = Call::new("edge").then(other).start(&task.start.unwrap_or_default());
+            ("border", call.given("laps", task.laps).given("impacts", task.impacts))
+        }
         Task::SettleMany(_) => return None,
     };
     let told = match &plan.task {
@@ -158,18 +163,18 @@ impl Call {
     }
 }
 
-/// A machine in SI units.
-fn machine(machine: &DrivenOscillator) -> String {
-    let given = numbers_of(machine)
+/// A body in SI units.
+fn in_si(body: &Body) -> String {
+    let given = numbers_of(body)
         .into_iter()
         .filter_map(|(name, value)| Some(format!("{}={}", without_unit(name), number(value?))));
-    let space = PhysicalPlan::from(machine).stop_in_space.then(|| "stop_in_space=True".to_owned());
+    let space = body.stop_in_space.then(|| "stop_in_space=True".to_owned());
     format!("vi.Oscillator.from_units({})", given.chain(space).collect::<Vec<_>>().join(", "))
 }
 
 fn oscillator(system: &SystemPlan) -> String {
-    if let Some(of) = &system.machine {
-        return machine(of);
+    if let Some(body) = &system.body {
+        return in_si(body);
     }
     let second = system.second_stop;
     let parts = [

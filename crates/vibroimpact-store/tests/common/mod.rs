@@ -17,7 +17,7 @@ pub const S: SystemPlan = SystemPlan {
     restitution: 0.5,
     damping: 0.0,
     second_stop: None,
-    machine: None,
+    body: None,
 };
 
 /// A basin of 20 tiles.

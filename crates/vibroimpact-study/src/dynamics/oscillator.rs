@@ -66,6 +66,23 @@ impl Dynamics for SystemPlan {
         })
     }
 
+    fn placed(_: &Oscillator, mut start: Start, coordinate: &Coordinate, value: f64) -> Result<Start, PlanError> {
+        match coordinate {
+            Coordinate::X => start.x = value,
+            Coordinate::V => start.v = value,
+            Coordinate::Phase => start.phase = value,
+            Coordinate::Parameter(of) => {
+                let (task, known) = ("second start", "x or v");
+                return Err(PlanError::WrongAxis { task, name: of.name().into(), known });
+            }
+        }
+        Ok(start)
+    }
+
+    fn allowed(osc: &Oscillator, start: Start) -> Result<Start, PlanError> {
+        Ok(Start::new(osc, start.x, start.v, start.phase)?)
+    }
+
     fn check_own(of: &Setup<'_, Self>, task: &Task) -> Result<(), PlanError> {
         match task {
             Task::Basin(plan) => plan.typed::<Coordinate, Quantity>()?.check(of.written),
@@ -288,10 +305,11 @@ impl Dynamics for SystemPlan {
     }
 
     fn line_of_events(of: &Setup<'_, Self>, plan: &CurvePlan) -> Result<(OrbitLine<Self::Along>, f64), PlanError> {
-        let physical = plan.vary.physical().or(plan.and.physical());
-        let path = match of.written.machine.filter(|_| physical.is_some()) {
-            Some(machine) => machine.line(plan.vary.parameter, None)?,
-            None => plan.vary.parameter.into(),
+        let of_body = plan.vary.of_body().or(plan.and.of_body());
+        let path = match (of.written.body.filter(|_| of_body.is_some()), plan.vary.parameter.of_oscillator()) {
+            (Some(body), _) => body.line(plan.vary.parameter, None)?,
+            (None, Some(parameter)) => parameter.into(),
+            (None, None) => return Err(PlanError::NoBody(plan.vary.parameter.name())),
         };
         let own = path.get(&of.system)?;
         // the inverse of a value at an end of the range may be rounded to a value outside

@@ -38,7 +38,7 @@ mod tests {
         restitution: 0.5,
         damping: 0.0,
         second_stop: None,
-        machine: None,
+        body: None,
     };
 
     fn span(over: &str) -> Values {

@@ -16,11 +16,14 @@
 //! | the numbers of a table by path | `written` |
 //! | modes from a table of numbers | `modes` |
 //! | some of its numbers varied | `varied` |
+//! | a body in SI units, which is a machine of one coordinate by other names; its numbers | [`Body`](crate::Body), [`BodyNumber`](crate::BodyNumber) |
 //! | where a machine begins | [`StartText`], [`StartNumbers`], `start`, `start_axis`, `starting` |
 //! | named machines of the literature | [`CATALOGUE`], `catalogue` |
 //! | errors | [`MachineFileError`], [`MachineProblem`] |
 
 mod back;
+pub(crate) mod body;
+mod body_number;
 mod catalogue;
 mod error;
 mod expand;
@@ -41,6 +44,8 @@ mod varied;
 mod write;
 mod written;
 
+pub use body::Body;
+pub use body_number::BodyNumber;
 pub use catalogue::{CATALOGUE, CatalogueEntry};
 pub use error::{MachineFileError, MachineProblem};
 pub use expression::ExpressionError;

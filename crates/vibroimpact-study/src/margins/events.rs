@@ -161,7 +161,7 @@ mod tests {
     }
 
     const SYSTEM: SystemPlan = SystemPlan {
-        machine: None,
+        body: None,
         beta: Some(1.0 / 1.11),
         inverse_beta: None,
         gap: 1.5,

@@ -4,9 +4,9 @@ use super::scope::{ScaledParameter, Scope};
 use crate::dynamics::{Dynamics, Setup};
 use crate::machine::MachineSource;
 use crate::name::Name;
-use crate::{Parameter, PlanError, StartPlan, SystemPlan, limits};
+use crate::{BodyNumber, Parameter, PlanError, StartPlan, SystemPlan, limits};
 use serde::{Deserialize, Serialize};
-use vibroimpact::{Amplitude, Damping, Label, PhysicalParameter};
+use vibroimpact::Label;
 
 /// Default ratio of the ends of the range of a parameter to its value.
 pub const DEFAULT_WITHIN: f64 = 2.0;
@@ -78,29 +78,28 @@ impl MarginsPlan {
         self.start.unwrap_or_default()
     }
 
-    /// The parameters of a system, the frequency in the form in which it is given. A machine has its numbers in SI units,
+    /// The parameters of a system, the frequency in the form in which it is given. A body has its numbers in SI units,
     /// without those that are 0.
     #[must_use]
     pub fn parameters(system: &SystemPlan) -> Vec<Parameter> {
-        if let Some(machine) = &system.machine {
-            let coefficient = matches!(machine.machine.damping, Damping::NsPerM(_));
-            let base = machine.excitation.base.amplitude;
-            let kept = |of: &PhysicalParameter| match of {
-                PhysicalParameter::DampingCoefficient => coefficient,
-                PhysicalParameter::DampingRatio => !coefficient,
-                PhysicalParameter::BaseDisplacement => matches!(base, Amplitude::DisplacementM(_)),
-                PhysicalParameter::BaseVelocity => matches!(base, Amplitude::VelocityMPerS(_)),
-                PhysicalParameter::BaseAcceleration => matches!(base, Amplitude::AccelerationMPerS2(_)),
+        if let Some(body) = &system.body {
+            let coefficient = body.damping_ns_per_m.is_some();
+            let kept = |of: &BodyNumber| match of {
+                BodyNumber::DampingCoefficient => coefficient,
+                BodyNumber::DampingRatio => !coefficient,
+                BodyNumber::BaseDisplacement => body.base_displacement_m.is_some(),
+                BodyNumber::BaseVelocity => body.base_velocity_m_per_s.is_some(),
+                BodyNumber::BaseAcceleration => body.base_acceleration_m_per_s2.is_some(),
                 // a stop on the base moves with it
-                PhysicalParameter::StopDisplacement => machine.stop_apart(),
-                PhysicalParameter::Gaps | PhysicalParameter::Restitutions => false,
+                BodyNumber::StopDisplacement => body.stop_apart(),
+                BodyNumber::Gaps | BodyNumber::Restitutions => false,
                 _ => true,
             };
-            let given = |of: &PhysicalParameter| {
-                let always = matches!(of, PhysicalParameter::Gap | PhysicalParameter::SecondGap);
-                of.get(machine).is_some_and(|value| always || value != 0.0)
+            let given = |of: &BodyNumber| {
+                let always = matches!(of, BodyNumber::Gap | BodyNumber::SecondGap);
+                of.get(body).is_some_and(|value| always || value != 0.0)
             };
-            let own = PhysicalParameter::ALL.into_iter().filter(kept).filter(given).map(Parameter::Physical);
+            let own = BodyNumber::ALL.into_iter().filter(kept).filter(given).map(Parameter::Body);
             let restitutions = [Parameter::Restitution, Parameter::SecondRestitution];
             return own.chain(restitutions.into_iter().filter(|of| system.value(*of).is_ok())).collect();
         }
@@ -178,7 +177,7 @@ mod tests {
     use crate::{Plan, SecondStop, Task};
 
     const SYSTEM: SystemPlan = SystemPlan {
-        machine: None,
+        body: None,
         beta: None,
         inverse_beta: Some(1.11),
         gap: 1.5,

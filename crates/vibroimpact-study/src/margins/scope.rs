@@ -1,14 +1,13 @@
 //! The range of a parameter in which events are looked for, and its scale in the box.
 
 use crate::name::Name;
-use crate::{Parameter, PlanError, SystemPlan};
+use crate::{BodyNumber, Parameter, PlanError, SystemPlan};
 use core::fmt;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
-use vibroimpact::PhysicalParameter;
 
 /// A number that varies, and its scale in the box. Without a scale, the path of a number of a machine is written alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,8 +110,8 @@ impl Scope {
         let value = system.value(parameter)?;
         let usual = match parameter {
             _ if value != 0.0 => value.abs(),
-            Parameter::Damping | Parameter::Physical(PhysicalParameter::DampingRatio) => 0.1,
-            Parameter::Physical(of) if of.unit() == "m" => system.scales().map_or(1.0, |scales| scales.length_m),
+            Parameter::Damping | Parameter::Body(BodyNumber::DampingRatio) => 0.1,
+            Parameter::Body(of) if of.unit() == "m" => system.scales().map_or(1.0, |scales| scales.length),
             _ => 1.0,
         };
         let (low, high) = match parameter {
@@ -123,13 +122,11 @@ impl Scope {
         let (low, high) = match parameter {
             Parameter::Damping => (low.max(0.0), high.min(RATIOS.1)),
             Parameter::Beta | Parameter::InverseBeta => (low.max(RATIOS.0), high.min(RATIOS.1)),
-            Parameter::Physical(PhysicalParameter::DampingCoefficient | PhysicalParameter::DampingRatio) => {
-                (low.max(0.0), high)
-            }
+            Parameter::Body(BodyNumber::DampingCoefficient | BodyNumber::DampingRatio) => (low.max(0.0), high),
             // the two stops may not touch
-            Parameter::Physical(PhysicalParameter::Gap | PhysicalParameter::SecondGap) => {
-                let sum = |of: PhysicalParameter| system.value(Parameter::Physical(of)).ok();
-                match sum(PhysicalParameter::Gap).zip(sum(PhysicalParameter::SecondGap)) {
+            Parameter::Body(BodyNumber::Gap | BodyNumber::SecondGap) => {
+                let sum = |of: BodyNumber| system.value(Parameter::Body(of)).ok();
+                match sum(BodyNumber::Gap).zip(sum(BodyNumber::SecondGap)) {
                     Some((one, two)) => (low.max(value - (1.0 - ROOM) * (one + two)), high),
                     None => (low, high),
                 }
@@ -148,8 +145,7 @@ impl Scope {
     fn legal_end(&self, end: f64) -> bool {
         match self.parameter {
             Parameter::Restitution | Parameter::SecondRestitution => true,
-            Parameter::Damping
-            | Parameter::Physical(PhysicalParameter::DampingCoefficient | PhysicalParameter::DampingRatio) => {
+            Parameter::Damping | Parameter::Body(BodyNumber::DampingCoefficient | BodyNumber::DampingRatio) => {
                 end == 0.0
             }
             _ => false,

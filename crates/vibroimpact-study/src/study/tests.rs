@@ -16,7 +16,7 @@ const S: SystemPlan = SystemPlan {
     restitution: 0.5,
     damping: 0.0,
     second_stop: None,
-    machine: None,
+    body: None,
 };
 
 fn span(text: &str) -> Span {

@@ -14,7 +14,7 @@
 
 use super::{Machine, MachineParts, Stop, StopLaw};
 use crate::math::{atan2, hypot, sin_cos};
-use crate::system::{Oscillator, Side, Start, phase};
+use crate::system::{Oscillator, Scales, Side, Start, SystemError, phase};
 use core::f64::consts::TAU;
 
 /// A start that is nearer to a stop than this part of the lengths is on it.
@@ -40,13 +40,11 @@ const ROUNDED: f64 = 4.0 * f64::EPSILON;
 pub struct Reduction {
     /// The oscillator.
     pub oscillator: Oscillator,
-    length: f64,
-    time: f64,
+    scales: Scales,
     phase: f64,
     offset: f64,
     sign: f64,
     frequency: f64,
-    mass: f64,
     /// The motion of the stops: amplitudes of sine and cosine.
     swing: (f64, f64),
     upper: Wall,
@@ -92,7 +90,7 @@ impl Machine {
     /// [`Oscillator`] can have.
     #[must_use]
     pub fn reduced(&self) -> Option<Reduction> {
-        Numbers::of(self.parts())?.reduction()
+        Reduction::of(self.parts()).ok().flatten()
     }
 }
 
@@ -125,7 +123,7 @@ impl VariedReduction {
     pub(crate) fn at(&self, values: &[f64]) -> Option<Reduction> {
         let mut list = self.numbers.list();
         self.places.iter().zip(values).for_each(|(place, value)| list[*place] = *value);
-        self.numbers.with(&list).reduction()
+        self.numbers.with(&list).reduction().ok().flatten()
     }
 }
 
@@ -194,13 +192,10 @@ impl Numbers {
         changed
     }
 
-    /// The oscillator; see [`Machine::reduced`].
-    fn reduction(&self) -> Option<Reduction> {
-        let Self { mass: m, damping: c, stiffness: k, frequency, force, .. } = *self;
-        // also if one is not a number
-        if !(m > 0.0 && k > 0.0) {
-            return None;
-        }
+    /// The motion of the stops, and those of the sides above and below with their restitutions; `None` if they are not those of an
+    /// oscillator.
+    #[allow(clippy::type_complexity, reason = "it is taken apart where it is returned")]
+    fn walls(&self) -> Option<((f64, f64), [Option<(Wall, f64)>; 2])> {
         let mut walls: [Option<(Wall, f64)>; 2] = [None, None];
         let mut swing: Option<(f64, f64)> = None;
         for (stop, of) in self.stops.iter().flatten().enumerate() {
@@ -217,40 +212,51 @@ impl Numbers {
                 return None;
             }
         }
-        let swing = swing?;
-        let [above, below] = walls;
+        Some((swing?, walls))
+    }
+
+    /// The oscillator; see [`Reduction::of`].
+    fn reduction(&self) -> Result<Option<Reduction>, SystemError> {
+        let Self { mass: m, damping: c, stiffness: k, frequency, force, .. } = *self;
         // a single stop is the upper one: below, the machine is mirrored
-        let (sign, first, second) = if above.is_some() { (1.0, above?, below) } else { (-1.0, below?, None) };
+        let (swing, sign, first, second) = match self.walls() {
+            // also if a number is none
+            _ if !(m > 0.0 && k > 0.0) => return Ok(None),
+            Some((swing, [Some(above), below])) => (swing, 1.0, above, below),
+            Some((swing, [None, Some(below)])) => (swing, -1.0, below, None),
+            _ => return Ok(None),
+        };
         // k - m omega^2 + i omega c, the complex stiffness by which the motion of the stops adds to the force
         let (re, im) = (k - m * frequency * frequency, frequency * c);
         let drive =
             (sign * (force.0 - (re * swing.0 - im * swing.1)), sign * (force.1 - (re * swing.1 + im * swing.0)));
         let amplitude = hypot(drive.0, drive.1);
-        let (length, time, offset) = (amplitude / k, (m / k).sqrt(), self.constant / k);
-        // without a force there is no unit of length
-        if !(length > 0.0 && length.is_finite()) {
-            return None;
+        let natural = (k / m).sqrt();
+        let (scales, offset) = (Scales { length: amplitude / k, time: 1.0 / natural, mass: m }, self.constant / k);
+        // without a force there is no unit of length; quotients of valid numbers can overflow or underflow
+        for (name, value) in [("F/k", scales.length), ("omega_n", natural), ("1/omega_n", scales.time)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(SystemError::Scaling { name, value });
+            }
         }
-        let gap = |wall: &Wall, side: f64| side * (wall.at - offset) / length;
-        let oscillator = Oscillator::new(frequency * time, gap(&first.0, sign), first.1).ok()?;
-        // zeta = c / (2 sqrt(km))
-        let mut oscillator = oscillator.with_damping(0.5 * c / (k * m).sqrt()).ok()?;
+        let gap = |wall: &Wall, side: f64| side * (wall.at - offset) / scales.length;
+        let mut oscillator = Oscillator::new(frequency / natural, gap(&first.0, sign), first.1)?
+            // not the root of the product, which can overflow or underflow although both numbers are valid
+            .with_damping(c / (2.0 * (k.sqrt() * m.sqrt())))?;
         if let Some((wall, restitution)) = &second {
-            oscillator = oscillator.with_second_stop(gap(wall, -1.0), *restitution).ok()?;
+            oscillator = oscillator.with_second_stop(gap(wall, -1.0), *restitution)?;
         }
-        Some(Reduction {
+        Ok(Some(Reduction {
             oscillator,
-            length,
-            time,
+            scales,
             phase: atan2(drive.1, drive.0),
             offset,
             sign,
             frequency,
-            mass: m,
             swing,
             upper: first.0,
             lower: second.map(|(wall, _)| wall),
-        })
+        }))
     }
 }
 
@@ -267,16 +273,39 @@ fn first_order(all: impl Iterator<Item = (u32, f64, f64)>) -> Option<(f64, f64)>
 }
 
 impl Reduction {
+    /// The oscillator that a machine with these numbers is, as [`Machine::reduced`] says; `None` if its coordinates, forces, stops
+    /// or joints are not those of one.
+    ///
+    /// # Errors
+    /// [`SystemError`] names the number that no oscillator has.
+    pub fn of(parts: &MachineParts) -> Result<Option<Self>, SystemError> {
+        Numbers::of(parts).map_or(Ok(None), |numbers| numbers.reduction())
+    }
+
+    /// The same with this damping ratio, where it is known better than from the coefficient, which is rounded.
+    ///
+    /// # Errors
+    /// [`SystemError::Damping`] for a ratio that no oscillator has.
+    pub fn with_damping(self, zeta: f64) -> Result<Self, SystemError> {
+        Ok(Self { oscillator: self.oscillator.with_damping(zeta)?, ..self })
+    }
+
+    /// The units of the oscillator in those of the machine.
+    #[must_use]
+    pub const fn scales(&self) -> Scales {
+        self.scales
+    }
+
     /// The unit of length $`|\hat F|/k`$ in that of the machine.
     #[must_use]
     pub const fn length(&self) -> f64 {
-        self.length
+        self.scales.length
     }
 
     /// The unit of time $`\sqrt{m/k}`$ in that of the machine.
     #[must_use]
     pub const fn time(&self) -> f64 {
-        self.time
+        self.scales.time
     }
 
     /// The phase of the oscillator at phase 0 of the machine, in radians.
@@ -299,7 +328,7 @@ impl Reduction {
 
     /// The mass of the machine.
     pub(crate) const fn mass(&self) -> f64 {
-        self.mass
+        self.scales.mass
     }
 
     /// The period of the forcing in the unit of time of the machine.
@@ -331,12 +360,12 @@ impl Reduction {
     /// The speed of closing of the machine's stop on that side, where the mass of the oscillator arrives with `speed`.
     #[must_use]
     pub fn speed(&self, side: Side, speed: f64) -> f64 {
-        speed * (self.length / self.time) * self.wall(side).map_or(1.0, |wall| wall.direction)
+        speed * self.scales.velocity() * self.wall(side).map_or(1.0, |wall| wall.direction)
     }
 
     /// The speed with which the mass of the oscillator arrives on a side, where the machine's stop closes with `speed`.
     pub(crate) fn arrival(&self, side: Side, speed: f64) -> f64 {
-        speed / ((self.length / self.time) * self.wall(side).map_or(1.0, |wall| wall.direction))
+        speed / (self.scales.velocity() * self.wall(side).map_or(1.0, |wall| wall.direction))
     }
 
     /// The motion $`s`$ of the stops at a phase of the machine, and its rate.
@@ -358,7 +387,7 @@ impl Reduction {
         }
         let phase = phase::wrap(phase);
         let (swing, rate) = self.swing(phase);
-        let mut x = self.sign * (q - swing - self.offset) / self.length;
+        let mut x = self.sign * (q - swing - self.offset) / self.scales.length;
         for (side, stop) in self.oscillator.stops() {
             let wall = self.wall(side)?;
             let room = side.sign() * self.sign * (wall.at + swing - q);
@@ -369,7 +398,7 @@ impl Reduction {
                 x = if side == Side::Upper { x.min(stop.gap) } else { x.max(-stop.gap) };
             }
         }
-        let v = self.sign * (qdot - rate) / (self.length / self.time);
+        let v = self.sign * (qdot - rate) / self.scales.velocity();
         Start::new(&self.oscillator, x, v, phase + self.phase).ok()
     }
 
@@ -381,7 +410,7 @@ impl Reduction {
         let (swing, rate) = self.swing(phase);
         let on = self.oscillator.stops().find(|(side, stop)| at.x == side.sign() * stop.gap);
         let standing = on.and_then(|(side, _)| self.wall(side)).map(|wall| wall.at);
-        let q = standing.unwrap_or(self.sign * self.length * at.x + self.offset) + swing;
-        (q, self.sign * (self.length / self.time) * at.v + rate, phase)
+        let q = standing.unwrap_or(self.sign * self.scales.length * at.x + self.offset) + swing;
+        (q, self.sign * self.scales.velocity() * at.v + rate, phase)
     }
 }

@@ -68,6 +68,7 @@ pub(crate) fn atan2(y: f64, x: f64) -> f64 {
 }
 
 /// $`\sqrt{x^2 + y^2}`$ without overflow.
-pub(crate) fn hypot(x: f64, y: f64) -> f64 {
+#[must_use]
+pub fn hypot(x: f64, y: f64) -> f64 {
     libm::hypot(x, y)
 }

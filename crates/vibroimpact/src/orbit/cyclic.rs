@@ -108,7 +108,7 @@ pub(crate) fn fill(rows: &mut [f64], width: usize, blocks: &[Block]) {
 
 /// The derivative of all residuals with respect to a parameter. For a gap or a restitution it is exact. For $`\beta`$
 /// and $`\zeta`$ it is a difference of fourth order, accurate to about 1e-10; Newton's method converges with it too.
-/// `None` if the parameter belongs to a stop that does not exist, or to a machine.
+/// `None` if the parameter belongs to a stop that does not exist.
 pub(crate) fn by_parameter(osc: &Oscillator, ring: &Ring, parameter: Parameter) -> Option<Vec<f64>> {
     match parameter {
         Parameter::Gap => Some(by_stop(osc, ring, Side::Upper, true)),
@@ -116,8 +116,6 @@ pub(crate) fn by_parameter(osc: &Oscillator, ring: &Ring, parameter: Parameter) 
         Parameter::Restitution => Some(by_stop(osc, ring, Side::Upper, false)),
         Parameter::SecondRestitution => Some(by_stop(osc, ring, Side::Lower, false)),
         Parameter::Beta | Parameter::InverseBeta | Parameter::Damping => by_difference(osc, ring, parameter),
-        // a number of a machine changes several parameters: `ParameterPath::rates`
-        Parameter::Physical(_) => None,
     }
 }
 

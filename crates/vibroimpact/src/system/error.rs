@@ -53,9 +53,6 @@ pub enum SystemError {
     /// A parameter of the second stop, but there is only one stop.
     #[error("{0} is a parameter of the second stop, and there is only one stop\nhint: give the second stop first")]
     NoSecondStop(&'static str),
-    /// A number of a machine, but the system is an oscillator without units.
-    #[error("{0} is a number of a machine in SI units, and the system is nondimensional")]
-    NotPhysical(&'static str),
     /// A second parameter on a line of oscillators that follow from another number.
     #[error("{0} cannot vary in proportion: the line is that of another number")]
     OwnLine(&'static str),

@@ -10,15 +10,11 @@
 //! | an oscillator as a function of other numbers | [`OscillatorFamily`] |
 //! | a line through two parameters, a plane of two | [`ParameterPath`], [`ParameterPlane`] |
 //! | a start within the stops | [`Start`] |
-//! | conversion from physical units to nondimensional numbers and back | [`PhysicalOscillator`] |
-//! | a machine with all that drives it, and its numbers by name | [`DrivenOscillator`], [`PhysicalParameter`] |
-//! | a moving base, an unbalance, a moving stop, a constant force, gravity: the equivalent machine | [`Excitation`] |
-//! | the kind of a quantity, and its unit | [`QuantityKind`] |
+//! | the units of an oscillator; the kind of a quantity, and its unit | [`Scales`], [`QuantityKind`] |
 //! | the phase of the force, kept in $`[0, 2\pi)`$ | [`phase`] |
 
 mod commensurable;
 mod error;
-mod excitation;
 mod free;
 mod nearby;
 mod oscillator;
@@ -27,16 +23,13 @@ mod parameter;
 mod parameter_path;
 mod parameter_plane;
 pub mod phase;
-mod physical;
-mod physical_change;
 mod quantity_kind;
 mod response;
+mod scales;
 mod start;
-mod units;
 
 pub(crate) use commensurable::common_period;
 pub use error::SystemError;
-pub use excitation::{Amplitude, EquivalentOscillator, Excitation, Shaking};
 pub(crate) use free::{FreeResponse, HEAVY, decay, versine};
 pub(crate) use nearby::Nearby;
 pub use oscillator::{Oscillator, Side, Stop};
@@ -44,9 +37,8 @@ pub use oscillator_family::OscillatorFamily;
 pub use parameter::Parameter;
 pub use parameter_path::ParameterPath;
 pub use parameter_plane::ParameterPlane;
-pub use physical::{DrivenOscillator, PhysicalParameter, Reduced};
 pub use quantity_kind::QuantityKind;
 pub(crate) use response::{FormKind, UndampedForm};
 pub use response::{Propagator, Response};
+pub use scales::Scales;
 pub use start::Start;
-pub use units::{Damping, Frequency, PhysicalOscillator, PhysicalStop, Scales};

@@ -1,4 +1,4 @@
-//! An oscillator as a function of numbers that are not its own, as the mass and the force in SI units.
+//! An oscillator as a function of numbers that are not its own, as the mass and the force of a machine.
 
 use super::{Oscillator, Parameter, Side, SystemError};
 use core::fmt;

@@ -1,6 +1,6 @@
 //! The parameters of an oscillator by name.
 
-use super::{Oscillator, PhysicalParameter, Side, SystemError};
+use super::{Oscillator, Side, SystemError};
 
 /// A parameter of an [`Oscillator`].
 ///
@@ -28,9 +28,6 @@ pub enum Parameter {
     SecondGap,
     /// Restitution $`\varepsilon_2`$ of the second stop, in [0, 1].
     SecondRestitution,
-    /// A number of the machine in SI units. An oscillator alone does not have it: it varies through
-    /// [`DrivenOscillator::line`](super::DrivenOscillator::line).
-    Physical(PhysicalParameter),
 }
 
 impl Parameter {
@@ -56,26 +53,19 @@ impl Parameter {
             Self::Damping => "damping",
             Self::SecondGap => "second_gap",
             Self::SecondRestitution => "second_restitution",
-            Self::Physical(parameter) => parameter.name(),
         }
     }
 
-    /// The parameter of an oscillator or a machine with this name.
+    /// The parameter with this name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
-        let own = Self::ALL.into_iter().find(|parameter| parameter.name() == name);
-        own.or_else(|| PhysicalParameter::from_name(name).map(Self::Physical))
+        Self::ALL.into_iter().find(|parameter| parameter.name() == name)
     }
 
     /// Whether two parameters determine the same number, so that only one of them can vary.
     #[must_use]
     pub fn same_number(self, other: Self) -> bool {
-        match (self, other) {
-            (Self::Physical(a), Self::Physical(b)) => a.same_number(b),
-            (Self::Physical(PhysicalParameter::Restitutions), Self::Restitution | Self::SecondRestitution)
-            | (Self::Restitution | Self::SecondRestitution, Self::Physical(PhysicalParameter::Restitutions)) => true,
-            (a, b) => a == b || a.is_frequency() && b.is_frequency(),
-        }
+        self == other || self.is_frequency() && other.is_frequency()
     }
 
     /// Whether it is a frequency ratio of an oscillator.
@@ -84,7 +74,7 @@ impl Parameter {
         matches!(self, Self::Beta | Self::InverseBeta)
     }
 
-    /// Its value; `None` for a parameter of a second stop if there is only one stop, and for a number of a machine.
+    /// Its value; `None` for a parameter of a second stop if there is only one stop.
     #[must_use]
     pub fn get(self, osc: &Oscillator) -> Option<f64> {
         let second = osc.stop(Side::Lower);
@@ -96,7 +86,6 @@ impl Parameter {
             Self::Damping => Some(osc.damping()),
             Self::SecondGap => second.map(|stop| stop.gap),
             Self::SecondRestitution => second.map(|stop| stop.restitution),
-            Self::Physical(_) => None,
         }
     }
 
@@ -104,7 +93,7 @@ impl Parameter {
     ///
     /// # Errors
     /// [`SystemError`] for a value outside the range of the parameter, [`SystemError::NoSecondStop`] for a parameter of
-    /// a second stop if there is only one stop, [`SystemError::NotPhysical`] for a number of a machine.
+    /// a second stop if there is only one stop.
     pub fn set(self, osc: &Oscillator, value: f64) -> Result<Oscillator, SystemError> {
         let (mut beta, mut gap, mut restitution, mut damping) =
             (osc.beta(), osc.gap(), osc.restitution(), osc.damping());
@@ -118,7 +107,6 @@ impl Parameter {
             (Self::SecondGap, Some(stop)) => stop.gap = value,
             (Self::SecondRestitution, Some(stop)) => stop.restitution = value,
             (Self::SecondGap | Self::SecondRestitution, None) => return Err(SystemError::NoSecondStop(self.name())),
-            (Self::Physical(parameter), _) => return Err(SystemError::NotPhysical(parameter.name())),
         }
         let changed = Oscillator::new(beta, gap, restitution)?.with_damping(damping)?;
         match second {

@@ -51,14 +51,11 @@ impl ParameterPath {
     ///
     /// # Errors
     /// [`SystemError::Together`] if `other` varies already, [`SystemError::Rate`] if the rate is not finite,
-    /// [`SystemError::NotPhysical`] for a number in SI units, [`SystemError::OwnLine`] for the line of a family.
+    /// [`SystemError::OwnLine`] for the line of a family.
     pub fn with(self, other: Parameter, rate: f64) -> Result<Self, SystemError> {
         let Line::Parameters { first, .. } = self.0 else { return Err(SystemError::OwnLine(other.name())) };
         if first.same_number(other) {
             return Err(SystemError::Together(first.name(), other.name()));
-        }
-        if let Parameter::Physical(parameter) = other {
-            return Err(SystemError::NotPhysical(parameter.name()));
         }
         if !rate.is_finite() {
             return Err(SystemError::Rate { name: other.name(), rate });

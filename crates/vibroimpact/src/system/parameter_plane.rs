@@ -92,55 +92,13 @@ impl ParameterPlane {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::{Damping, DrivenOscillator, Excitation, Frequency, PhysicalOscillator, PhysicalParameter};
-
-    const MACHINE: DrivenOscillator = DrivenOscillator {
-        machine: PhysicalOscillator {
-            mass_kg: 0.8,
-            damping: Damping::Ratio(0.02),
-            stiffness_n_per_m: 12e3,
-            force_n: 30.0,
-            frequency: Frequency::Hz(20.0),
-            gap_m: 1.5e-3,
-            restitution: 0.65,
-            second_stop: None,
-        },
-        excitation: Excitation {
-            base: crate::system::Shaking { amplitude: crate::system::Amplitude::DisplacementM(0.0), phase: 0.0 },
-            stop: crate::system::Shaking { amplitude: crate::system::Amplitude::DisplacementM(0.0), phase: 0.0 },
-            unbalance_kg_m: 0.0,
-            constant_force_n: 0.0,
-            gravity_m_per_s2: 0.0,
-        },
-    };
-
-    #[test]
-    fn numbers_of_a_machine_change_the_oscillator_as_by_hand() {
-        use Parameter::{Beta, Damping as Ratio, Gap, Physical};
-        let (mass, force) = (Physical(PhysicalParameter::Mass), Physical(PhysicalParameter::Force));
-        let plane = MACHINE.plane((mass, force)).unwrap();
-        let osc = plane.set(&MACHINE.reduced().unwrap().oscillator, (1.1, 40.0)).unwrap();
-        let near = |a: f64, b: f64| (a - b).abs() <= 1e-14 * b.abs();
-        assert!(near(osc.beta(), core::f64::consts::TAU * 20.0 * (1.1_f64 / 12e3).sqrt()));
-        assert!(near(osc.gap(), 1.5e-3 * 12e3 / 40.0));
-        // beta grows with the square root of the mass; the damping ratio is given and stays; the gap falls with the force
-        let [by_mass, by_force] = plane.rates((1.1, 40.0)).unwrap();
-        let of = |rates: &[(Parameter, f64)], one| {
-            rates.iter().find(|(parameter, _)| *parameter == one).map_or(0.0, |(_, rate)| *rate)
-        };
-        assert!((of(&by_mass, Beta) / (0.5 * osc.beta() / 1.1) - 1.0).abs() < 1e-8);
-        assert!((of(&by_force, Gap) / (-osc.gap() / 40.0) - 1.0).abs() < 1e-8);
-        assert_eq!((of(&by_mass, Ratio), of(&by_mass, Gap), of(&by_force, Beta)), (0.0, 0.0, 0.0));
-    }
 
     #[test]
     fn a_place_of_a_line_is_a_point_of_the_plane() {
-        let frequency = Parameter::Physical(PhysicalParameter::Frequency);
-        let plane = MACHINE.with(frequency, 22.0).unwrap().plane((frequency, Parameter::Restitution)).unwrap();
-        let osc = MACHINE.reduced().unwrap().oscillator;
-        let line = MACHINE.line(frequency, None).unwrap();
-        let (there, point) = plane.on_line(&osc, &line, 22.0).unwrap();
-        assert_eq!((point, there), ((22.0, 0.65), plane.set(&osc, (22.0, 0.65)).unwrap()));
+        let osc = Oscillator::new(0.9, 0.5, 0.6).unwrap();
+        let plane = ParameterPlane::from((Parameter::Beta, Parameter::Restitution));
+        let (there, point) = plane.on_line(&osc, &Parameter::Beta.into(), 1.1).unwrap();
+        assert_eq!((point, there), ((1.1, 0.6), plane.set(&osc, (1.1, 0.6)).unwrap()));
         let second = ParameterPlane::from((Parameter::Gap, Parameter::SecondGap));
         let refused = second.on_line(&osc, &Parameter::Gap.into(), 1.0).unwrap_err();
         assert_eq!(refused, SystemError::NoSecondStop("second_gap"));

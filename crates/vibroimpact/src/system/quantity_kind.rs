@@ -39,21 +39,21 @@ impl QuantityKind {
         Self::Rate,
     ];
 
-    /// One nondimensional unit in SI units.
+    /// One nondimensional unit in the units of the scales.
     #[must_use]
-    pub fn in_si(self, scales: &Scales) -> f64 {
-        let Scales { length_m, time_s, mass_kg } = *scales;
-        let velocity = length_m / time_s;
+    pub fn scale(self, scales: &Scales) -> f64 {
+        let Scales { length, time, mass } = *scales;
+        let velocity = scales.velocity();
         match self {
             Self::Number => 1.0,
-            Self::Length => length_m,
+            Self::Length => length,
             Self::Velocity => velocity,
-            Self::Acceleration => velocity / time_s,
-            Self::Force => mass_kg * velocity / time_s,
-            Self::Impulse => mass_kg * velocity,
-            Self::Energy => mass_kg * velocity * velocity,
-            Self::Power => mass_kg * velocity * velocity / time_s,
-            Self::Rate => 1.0 / time_s,
+            Self::Acceleration => velocity / time,
+            Self::Force => mass * velocity / time,
+            Self::Impulse => mass * velocity,
+            Self::Energy => mass * velocity * velocity,
+            Self::Power => mass * velocity * velocity / time,
+            Self::Rate => 1.0 / time,
         }
     }
 
@@ -129,8 +129,8 @@ mod tests {
     /// The units follow from their definitions: J = N m, W = J/s, and N = kg m/s^2.
     #[test]
     fn derived_units() {
-        let scales = Scales { length_m: 0.003, time_s: 0.02, mass_kg: 0.7 };
-        let of = |kind: QuantityKind| kind.in_si(&scales);
+        let scales = Scales { length: 0.003, time: 0.02, mass: 0.7 };
+        let of = |kind: QuantityKind| kind.scale(&scales);
         let newton = of(QuantityKind::Acceleration) * 0.7;
         for (value, expected) in [
             (of(QuantityKind::Impulse), newton * 0.02),

@@ -80,7 +80,7 @@ fn simulated() -> Result<(Vec<f64>, Vec<f64>), Error> {
         restitution: EPS,
         damping: 0.0,
         second_stop: None,
-        machine: None,
+        body: None,
     };
     let plan = DiagramPlan {
         vary: Parameter::Gap,

@@ -1,4 +1,4 @@
-//! Axes over numbers of a machine.
+//! Axes over numbers of a body.
 
 use super::{MACHINE, Machine, near, unit};
 use crate::{json, vibro};

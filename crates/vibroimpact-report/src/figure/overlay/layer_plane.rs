@@ -2,11 +2,10 @@
 //! without impacts grazes a stop. All coordinates are in the units of the axes of the figure.
 
 use crate::Units;
-use vibroimpact::PhysicalParameter;
 use vibroimpact::continuation::{Polygon, Region};
 use vibroimpact_study::{
-    Axis, Control, Coordinate, MapPlan, Parameter, Plan, PlanError, RunError, Stretch, System, SystemPlan, Task,
-    stability_regions,
+    Axis, BodyNumber, Control, Coordinate, MapPlan, Parameter, Plan, PlanError, RunError, Stretch, System, SystemPlan,
+    Task, stability_regions,
 };
 
 /// Motions whose regions are drawn by default: those of the 1971 paper, and those that begin at their flips.
@@ -65,8 +64,8 @@ impl LayerPlane {
 
     /// The gap on an axis, the other parameter, and whether the gap is the ordinate.
     fn gap(&self) -> Option<(&Stretch, &Stretch, bool)> {
-        use PhysicalParameter::{Gap, Gaps};
-        let is_gap = |parameter| matches!(parameter, Parameter::Gap | Parameter::Physical(Gap | Gaps));
+        use BodyNumber::{Gap, Gaps};
+        let is_gap = |parameter| matches!(parameter, Parameter::Gap | Parameter::Body(Gap | Gaps));
         match (is_gap(self.across.parameter), is_gap(self.up.parameter)) {
             (_, true) => Some((&self.up, &self.across, true)),
             (true, false) => Some((&self.across, &self.up, false)),
@@ -83,7 +82,7 @@ impl LayerPlane {
     /// The gap that equals the amplitude of the motion without impacts, in the unit of its parameter.
     fn amplitude_at(&self, gap: &Stretch, other: Parameter, at: f64) -> Option<f64> {
         let amplitude = self.system.with(other, at).ok()?.oscillator().ok()?.free_amplitude();
-        if !matches!(gap.parameter, Parameter::Physical(_)) {
+        if !matches!(gap.parameter, Parameter::Body(_)) {
             return Some(amplitude);
         }
         // the nondimensional gap is a linear function of that of the machine

@@ -1,9 +1,11 @@
 //! The points of the 1971 paper in a map.
 
 use crate::Units;
+use vibroimpact::Scales;
 use vibroimpact::scenario::PAPER;
-use vibroimpact::{PhysicalParameter, Scales};
-use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, System, SystemPlan, Task, natural_hertz, typed_axes};
+use vibroimpact_study::{
+    Axis, BodyNumber, Coordinate, Parameter, Plan, System, SystemPlan, Task, natural_hertz, typed_axes,
+};
 
 /// The points that lie in the plane of a complete plan, with their positions in the units of the axes.
 pub(super) fn named(plan: &Plan) -> Vec<(&'static str, [f64; 2])> {
@@ -52,12 +54,12 @@ fn inverse_beta(system: &SystemPlan) -> f64 {
 fn nondimensional(axis: &Axis, units: &Units) -> Option<(Parameter, f64)> {
     let Coordinate::Parameter(parameter) = axis.vary else { return None };
     Some(match parameter {
-        Parameter::Physical(PhysicalParameter::Frequency) => {
+        Parameter::Body(BodyNumber::Frequency) => {
             (Parameter::Beta, units.scales.as_ref().map_or(1.0, |scales: &Scales| natural_hertz(scales)))
         }
-        Parameter::Physical(PhysicalParameter::Gap) => (Parameter::Gap, units.length()),
-        Parameter::Physical(PhysicalParameter::DampingRatio) => (Parameter::Damping, 1.0),
-        Parameter::Physical(_) => return None,
+        Parameter::Body(BodyNumber::Gap) => (Parameter::Gap, units.length()),
+        Parameter::Body(BodyNumber::DampingRatio) => (Parameter::Damping, 1.0),
+        Parameter::Body(_) => return None,
         parameter => (parameter, units.of(parameter)),
     })
 }

@@ -138,8 +138,7 @@ impl Limit {
                     let amplitude = Parameter::Damping.set(&self.osc, zeta).map(|osc| osc.free_amplitude());
                     breaks.extend(amplitude.ok().into_iter().chain(levels.iter().copied()));
                 }
-                // a number in SI units is none of an oscillator
-                Parameter::Restitution | Parameter::SecondRestitution | Parameter::Physical(_) => {}
+                Parameter::Restitution | Parameter::SecondRestitution => {}
             }
         }
         breaks.retain(|x| *x > self.x.low && *x < self.x.high);

@@ -1,20 +1,19 @@
-//! MACHINE: the system in SI units, and what drives it.
+//! BODY: the system in SI units, and what drives it.
 
 use super::parameter_flag::ParameterFlag;
 use super::ranged::{Ranged, with_unit};
 use super::unit_text::UnitKind;
 use crate::failure::Failure;
 use clap::Args;
-use vibroimpact::{DrivenOscillator, PhysicalParameter};
 use vibroimpact_report::{Asked, Units};
-use vibroimpact_study::{Axis, Parameter, PhysicalPlan, SystemPlan, UnitsPlan};
+use vibroimpact_study::{Axis, Body, BodyNumber, Parameter, SystemPlan, UnitsPlan};
 
-/// The system as a machine: mass, stiffness, force, frequency, gap and restitution, instead of --beta, --gap and --damping.
+/// The system as a body: mass, stiffness, force, frequency, gap and restitution, instead of --beta, --gap and --damping.
 #[derive(Clone, Debug, Default, Args)]
 #[command(
     next_help_heading = "System in physical units (instead of beta, gap and damping); units may be written: 1.5mm, 900rpm"
 )]
-pub(crate) struct PhysicalArgs {
+pub(crate) struct BodyArgs {
     /// Mass in kg, positive
     #[arg(long, visible_alias = "mass", value_parser = with_unit(UnitKind::Mass), value_name = "M", allow_hyphen_values = true)]
     mass_kg: Option<Ranged>,
@@ -102,14 +101,14 @@ pub(crate) struct PhysicalArgs {
 
 const EXCITATION: &str = "Excitation of a system in physical units, besides the force or instead of it";
 
-/// A number of the machine and the ends of its range.
+/// A number of the body and the ends of its range.
 pub(crate) type Ends = (ParameterFlag, (f64, f64));
 
-impl PhysicalArgs {
+impl BodyArgs {
     /// The numbers that are given, in the order of the flags. The damping ratio stands for the logarithmic decrement too,
     /// and the frequency in Hz for that in rad/s; those two forms cannot vary.
-    fn given(&self) -> impl Iterator<Item = (PhysicalParameter, &Ranged)> {
-        use PhysicalParameter as P;
+    fn given(&self) -> impl Iterator<Item = (BodyNumber, &Ranged)> {
+        use BodyNumber as P;
         let all = [
             (P::Mass, &self.mass_kg),
             (P::Stiffness, &self.stiffness_n_per_m),
@@ -142,23 +141,23 @@ impl PhysicalArgs {
     }
 
     /// A gap that was written with its unit under its nondimensional name.
-    pub(super) fn put(&mut self, parameter: PhysicalParameter, value: Ranged) {
+    pub(super) fn put(&mut self, parameter: BodyNumber, value: Ranged) {
         match parameter {
-            PhysicalParameter::Gap => self.gap_m = Some(value),
-            PhysicalParameter::SecondGap => self.second_gap_m = Some(value),
-            PhysicalParameter::DampingCoefficient => self.damping_ns_per_m = Some(value),
+            BodyNumber::Gap => self.gap_m = Some(value),
+            BodyNumber::SecondGap => self.second_gap_m = Some(value),
+            BodyNumber::DampingCoefficient => self.damping_ns_per_m = Some(value),
             _ => {}
         }
     }
 
     /// The numbers with several values.
-    pub(crate) fn ranges(&self) -> impl Iterator<Item = (PhysicalParameter, &Ranged)> {
+    pub(crate) fn ranges(&self) -> impl Iterator<Item = (BodyNumber, &Ranged)> {
         self.given().filter(|(_, ranged)| !ranged.is_one())
     }
 
     /// Refuses several values of a number.
     pub(super) fn one_value(&self, hint: &str) -> Result<(), Failure> {
-        let mut several = self.ranges().map(|(parameter, _)| ParameterFlag::of_machine(parameter).flag());
+        let mut several = self.ranges().map(|(parameter, _)| ParameterFlag::of_body(parameter).flag());
         let other = [("log-decrement", &self.log_decrement), ("omega-rad-per-s", &self.omega_rad_per_s)];
         let other = other.into_iter().find(|(_, given)| given.as_ref().is_some_and(|given| !given.is_one()));
         match several.next().or(other.map(|(flag, _)| flag)) {
@@ -172,8 +171,8 @@ impl PhysicalArgs {
 
     /// The numbers with several values, which are ranges A:B.
     pub(crate) fn ends(&self) -> Result<Vec<Ends>, Failure> {
-        let ends = |(parameter, ranged): (PhysicalParameter, &Ranged)| {
-            let named = ParameterFlag::of_machine(parameter);
+        let ends = |(parameter, ranged): (BodyNumber, &Ranged)| {
+            let named = ParameterFlag::of_body(parameter);
             let ends = ranged.ends().filter(|(from, to)| from < to);
             ends.map(|ends| (named, ends))
                 .ok_or_else(|| Failure::bad(format!("--{} is not A:B with finite A < B", named.flag())))
@@ -183,8 +182,8 @@ impl PhysicalArgs {
 
     /// The axes over the numbers with several values.
     pub(super) fn axes(&self) -> Result<Vec<(ParameterFlag, Axis)>, Failure> {
-        let axis = |(parameter, ranged): (PhysicalParameter, &Ranged)| {
-            let named = ParameterFlag::of_machine(parameter);
+        let axis = |(parameter, ranged): (BodyNumber, &Ranged)| {
+            let named = ParameterFlag::of_body(parameter);
             ranged.axis(named.parameter).map(|axis| (named, axis)).ok_or_else(|| {
                 let (from, to) = ranged.ends().unwrap_or_default();
                 let flag = named.flag();
@@ -196,22 +195,22 @@ impl PhysicalArgs {
         self.ranges().map(axis).collect()
     }
 
-    /// The machine with the first value of each range; `set` gives numbers that vary their first values. An error names all
+    /// The body with the first value of each range; `set` gives numbers that vary their first values. An error names all
     /// that is missing.
     pub(super) fn plan(
         &self,
         (restitution, second_restitution): (Option<f64>, Option<f64>),
-        set: &[(PhysicalParameter, f64)],
-    ) -> Result<PhysicalPlan, Failure> {
+        set: &[(BodyNumber, f64)],
+    ) -> Result<Body, Failure> {
         let first = |given: &Option<Ranged>| given.as_ref().map(Ranged::first);
-        let mut plan = PhysicalPlan {
+        let mut plan = Body {
             log_decrement: first(&self.log_decrement),
             omega_rad_per_s: first(&self.omega_rad_per_s),
             restitution,
             base_phase: self.base_phase,
             stop_in_space: self.stop_in_space,
             stop_phase: self.stop_phase,
-            ..PhysicalPlan::default()
+            ..Body::default()
         };
         let given = self.given().map(|(parameter, ranged)| (parameter, ranged.first()));
         given.chain(set.iter().copied()).for_each(|(parameter, value)| plan.set(parameter, value));
@@ -235,28 +234,26 @@ impl PhysicalArgs {
     }
 }
 
-/// The system of a machine: in SI units, or nondimensional with the units of the machine beside it.
-pub(super) fn asked(plan: &PhysicalPlan, si: bool) -> Result<Asked, Failure> {
-    let system = SystemPlan::of_machine(plan.driven()?)?;
+/// The system of a body: in SI units, or nondimensional with the units of the body beside it.
+pub(super) fn asked(plan: &Body, si: bool) -> Result<Asked, Failure> {
+    let system = SystemPlan::of_body(plan)?;
     let units = UnitsPlan::of_system(&system).as_ref().map(Units::from).unwrap_or_default();
-    // without --units si the machine only gives the scales
-    let machine = system.machine.filter(|_| si);
-    Ok(Asked { system: SystemPlan { machine, ..system }, units: Units { si, hertz: false, machine, ..units } })
+    // without --units si the body only gives the scales
+    let body = system.body.filter(|_| si);
+    Ok(Asked { system: SystemPlan { body, ..system }, units: Units { si, hertz: false, body, ..units } })
 }
 
-/// The parameter of the oscillator that a number of a machine is, apart from its unit; `None` if other numbers of the
+/// The parameter of the oscillator that a number of a body is, apart from its unit; `None` if other numbers of the
 /// oscillator change with it.
-pub(crate) fn alone(parameter: PhysicalParameter, machine: &DrivenOscillator) -> Option<Parameter> {
-    let excitation = &machine.excitation;
-    let plain_force = excitation.unbalance_kg_m == 0.0
-        && excitation.base.amplitude.displacement_m(1.0) == 0.0
-        && excitation.stop.amplitude.displacement_m(1.0) == 0.0;
-    let plain_rest = excitation.constant_force_n == 0.0 && excitation.gravity_m_per_s2 == 0.0;
-    match parameter {
-        PhysicalParameter::Frequency => plain_force.then_some(Parameter::Beta),
-        PhysicalParameter::DampingRatio => (!machine.stop_apart()).then_some(Parameter::Damping),
-        PhysicalParameter::Gap => plain_rest.then_some(Parameter::Gap),
-        PhysicalParameter::SecondGap => plain_rest.then_some(Parameter::SecondGap),
+pub(crate) fn alone(number: BodyNumber, body: &Body) -> Option<Parameter> {
+    let plain_force =
+        body.unbalance_kg_m.is_none() && body.base_displacement() == 0.0 && body.stop_displacement() == 0.0;
+    let plain_rest = body.constant_force_n.is_none() && body.gravity_m_per_s2.is_none();
+    match number {
+        BodyNumber::Frequency => plain_force.then_some(Parameter::Beta),
+        BodyNumber::DampingRatio => (!body.stop_apart()).then_some(Parameter::Damping),
+        BodyNumber::Gap => plain_rest.then_some(Parameter::Gap),
+        BodyNumber::SecondGap => plain_rest.then_some(Parameter::SecondGap),
         _ => None,
     }
 }
