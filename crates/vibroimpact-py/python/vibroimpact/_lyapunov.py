@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from vibroimpact import _core
 from vibroimpact._figure import heading, named
 from vibroimpact._motion import Motion, all_measured, maybe_measured
-from vibroimpact._palette import SERIES
 from vibroimpact._result import Field, Made, Part, View, equal
 
 if TYPE_CHECKING:
@@ -113,6 +112,8 @@ class Lyapunov(View):
         known = [(k + 1, of.value, np.nan_to_num(of.error)) for k, of in enumerate(self.exponents) if np.isfinite(of.value)]
         if not known:
             raise _core.QuestionError("there are no finite exponents to draw")
+        from vibroimpact._palette import SERIES
+
         place, value, error = np.array(known).T
         bars = [[low, high, np.nan] for low, high in zip(value - error, value + error)]
         look = {"colour": SERIES[0], "size": 10, "shape": "circle", "filled": True, "rim": None}

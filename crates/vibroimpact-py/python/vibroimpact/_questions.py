@@ -410,8 +410,8 @@ def margins(system, *, label=None, vary=None, scale=None, within=2.0, lines=None
 
 def _impacts(system, task):
     before, points = task.get("transient", 1000), task.get("points")
-    whole = before + task.get("impacts", 100_000) + (0 if points is None else before + points)
-    return whole if isinstance(system, Oscillator) else 1
+    measured = task.get("impacts", 100_000 if isinstance(system, Oscillator) else 20_000)
+    return before + measured + (0 if points is None else before + points)
 
 
 @question(Lyapunov, "lyapunov", START, "impacts", total=_impacts)

@@ -12,6 +12,7 @@ from vibroimpact._attractors import Attractors
 from vibroimpact._axis import Axis, Interval
 from vibroimpact._branch import Branch
 from vibroimpact._curve import Curve
+from vibroimpact._edge import Edge
 from vibroimpact._lyapunov import Lyapunov
 from vibroimpact._margins import Margins
 from vibroimpact._orbits import Orbits
@@ -57,6 +58,11 @@ def response(
     system: System, vary: str, over: Axis, *, quantity: str | None = None, impacts: SupportsIndex | None = None,
     progress: Progress = None,
 ) -> Response: ...
+def edge(
+    system: System, other: Mapping[str, float], *, laps: SupportsIndex | None = None,
+    impacts: SupportsIndex | None = None, x: float | None = None, v: float | None = None, q: ArrayLike | None = None,
+    qdot: ArrayLike | None = None, phase: float | None = None, progress: Progress = None,
+) -> Edge: ...
 def margins(
     system: System, *, label: str | None = None, vary: Sequence[str] | None = None,
     scale: Mapping[str, float] | None = None, within: float = 2.0, lines: SupportsIndex | None = None,

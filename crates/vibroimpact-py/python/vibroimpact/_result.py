@@ -1,9 +1,6 @@
 """What all results have in common: equality of their values, a table, and a small picture in a notebook."""
 
-import base64
 import copy
-import html
-import io
 import json
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import fields, is_dataclass
@@ -77,12 +74,17 @@ class Result:
         return xr.Dataset(columns, attrs={"source": f"vibroimpact {_core.__version__}", **plan})
 
     def _repr_html_(self) -> str:
+        import html
+
         text = f"<pre>{html.escape(repr(self))}</pre>"
         picture = self._picture() if hasattr(self, "plot") else None
         return text if picture is None else f'{text}<img alt="{html.escape(repr(self))}" src="data:image/png;base64,{picture}">'
 
     def _picture(self) -> str | None:
         """The figure as a small PNG in base64; None for a result that has no figure."""
+        import base64
+        import io
+
         from matplotlib.figure import Figure
 
         figure = Figure(figsize=_SIZE, dpi=_DOTS, layout="constrained")
