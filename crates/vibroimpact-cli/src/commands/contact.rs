@@ -28,35 +28,35 @@ use vibroimpact_report::{ContactAnswer, ContactObject};
 )]
 pub(crate) struct Contact {
     /// Restitution, above 0 and up to 1
-    #[arg(long, value_parser = in_unit(UnitKind::Ratio), value_name = "E", group = "loss", help_heading = "Contact")]
+    #[arg(long, value_parser = in_unit(UnitKind::Ratio), value_name = "E", allow_hyphen_values = true, group = "loss", help_heading = "Contact")]
     restitution: Option<f64>,
 
     /// Damping in N s/m instead, 0 or more
-    #[arg(long, value_parser = in_unit(UnitKind::DampingCoefficient), value_name = "C", group = "loss", help_heading = "Contact")]
+    #[arg(long, value_parser = in_unit(UnitKind::DampingCoefficient), value_name = "C", allow_hyphen_values = true, group = "loss", help_heading = "Contact")]
     damping_ns_per_m: Option<f64>,
 
     /// Damping ratio c / (2 sqrt(k m)) instead, 0 or more
-    #[arg(long, value_parser = in_unit(UnitKind::Ratio), value_name = "Z", group = "loss", help_heading = "Contact")]
+    #[arg(long, value_parser = in_unit(UnitKind::Ratio), value_name = "Z", allow_hyphen_values = true, group = "loss", help_heading = "Contact")]
     damping_ratio: Option<f64>,
 
     /// Mass in kg, positive; of two bodies m1 m2 / (m1 + m2)
-    #[arg(long, visible_alias = "mass", value_parser = in_unit(UnitKind::Mass), value_name = "M", help_heading = "Contact")]
+    #[arg(long, visible_alias = "mass", value_parser = in_unit(UnitKind::Mass), value_name = "M", allow_hyphen_values = true, help_heading = "Contact")]
     mass_kg: Option<f64>,
 
     /// Stiffness in N/m, positive
-    #[arg(long, visible_alias = "stiffness", value_parser = in_unit(UnitKind::Stiffness), value_name = "K", group = "spring", help_heading = "Contact")]
+    #[arg(long, visible_alias = "stiffness", value_parser = in_unit(UnitKind::Stiffness), value_name = "K", allow_hyphen_values = true, group = "spring", help_heading = "Contact")]
     stiffness_n_per_m: Option<f64>,
 
     /// Frequency of the mass on the spring in Hz, without the mass or instead of the stiffness
-    #[arg(long, visible_alias = "frequency", value_parser = in_unit(UnitKind::Frequency), value_name = "F", help_heading = "Contact")]
+    #[arg(long, visible_alias = "frequency", value_parser = in_unit(UnitKind::Frequency), value_name = "F", allow_hyphen_values = true, help_heading = "Contact")]
     frequency_hz: Option<f64>,
 
     /// Contact time in s instead of the stiffness
-    #[arg(long, value_parser = in_unit(UnitKind::Time), value_name = "T", group = "spring", conflicts_with = "frequency_hz", help_heading = "Contact")]
+    #[arg(long, value_parser = in_unit(UnitKind::Time), value_name = "T", allow_hyphen_values = true, group = "spring", conflicts_with = "frequency_hz", help_heading = "Contact")]
     contact_time_s: Option<f64>,
 
     /// Speed of approach in m/s
-    #[arg(long, visible_alias = "speed", value_parser = in_unit(UnitKind::Velocity), value_name = "V", default_value = "1", help_heading = "Contact")]
+    #[arg(long, visible_alias = "speed", value_parser = in_unit(UnitKind::Velocity), value_name = "V", allow_hyphen_values = true, default_value = "1", help_heading = "Contact")]
     speed_m_per_s: f64,
 
     /// When the contact opens [default: both]

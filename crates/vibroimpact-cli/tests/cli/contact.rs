@@ -5,11 +5,11 @@ use crate::{json, vibro};
 const GIVEN: &str = "contact --restitution 0.6 --mass 0.8kg --stiffness 200N/mm";
 
 fn said(line: &str) -> String {
-    String::from_utf8(vibro(line).output().unwrap().stdout).unwrap()
+    String::from_utf8(vibro(line).output().expect("vibro runs").stdout).expect("text")
 }
 
 fn number(of: &serde_json::Value) -> f64 {
-    of.as_f64().unwrap()
+    of.as_f64().expect("a number")
 }
 
 #[test]

@@ -3,11 +3,11 @@
 use crate::{S, json, vibro};
 
 fn said(line: &str) -> String {
-    String::from_utf8(vibro(line).output().unwrap().stdout).unwrap()
+    String::from_utf8(vibro(line).output().expect("vibro runs").stdout).expect("text")
 }
 
 fn names(of: &serde_json::Value) -> Vec<&String> {
-    of.as_object().unwrap().keys().collect()
+    of.as_object().expect("an object").keys().collect()
 }
 
 /// The oscillator, the machine that it is, and that machine beside another body have one saddle, and their answers the same keys.
