@@ -182,7 +182,7 @@ mod tests {
         for sub in command().get_subcommands_mut() {
             let text = sub.render_help().to_string();
             assert!(text.lines().count() <= 40, "{} lines\n{text}", text.lines().count());
-            assert!(!text.contains("--stiffness-n-per-m <K>") && !text.contains("--greyscale"), "{text}");
+            assert!(!text.contains("--force-n <F>") && !text.contains("--greyscale"), "{text}");
         }
     }
 
