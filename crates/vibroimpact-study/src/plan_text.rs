@@ -157,11 +157,12 @@ fn of_system(task: &Task, is_machine: bool, document: &Document<'_>) -> Result<T
         PlanError::Name(why) => document.wrong_text(name, &why).into(),
         other => other,
     };
-    // in the other tasks no coordinate of a start varies
-    let starts_vary = matches!(task, Task::Basin(_) | Task::Map(_) | Task::Lyapunov(_) | Task::SettleMany(_));
+    // the other tasks name no coordinate of a start
+    let names_starts =
+        matches!(task, Task::Basin(_) | Task::Map(_) | Task::Lyapunov(_) | Task::SettleMany(_) | Task::Edge(_));
     let coordinate = |name: &Variable| {
         let name = name.text();
-        let found = if starts_vary { Coordinate::of(name) } else { Parameter::of(name).map(Coordinate::Parameter) };
+        let found = if names_starts { Coordinate::of(name) } else { Parameter::of(name).map(Coordinate::Parameter) };
         found.map(Variable::Coordinate).map_err(|error| placed(name, error))
     };
     let quantity = |name: &String| {
