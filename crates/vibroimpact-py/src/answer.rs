@@ -7,7 +7,7 @@ use crate::error::Trouble;
 use crate::events::{EventFields, Events};
 use crate::machine::{MachineFile, Start, start};
 use crate::oscillator::{OscillatorFile, ScalesOf, scales};
-use crate::plan::{read, text};
+use crate::plan::{PlanFields, fields, read, text};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -16,8 +16,8 @@ use vibroimpact_report::json::event::{self, EventObject, side};
 use vibroimpact_report::json::motion::horizon;
 use vibroimpact_report::{Asked, Shown, Units, figure};
 use vibroimpact_study::{
-    MarginsPlan, Name, Parameter, Plan, PlanError, Quantity, ResponseCurves, ResponseRow, Results, SectionPoints,
-    Simulated, SystemPlan, Task, machine,
+    Dynamics, MarginsPlan, Name, Parameter, Plan, PlanError, Quantity, ResponseCurves, ResponseRow, Results,
+    SectionPoints, Simulated, SystemPlan, Task,
 };
 
 /// A system about which a question is asked.
@@ -191,16 +191,16 @@ fn planned(system: &System<'_>, from: Option<Start>, text: &str, tile: Option<u3
     Ok(plan)
 }
 
-/// The plan of a task, which is JSON, for a system, as JSON.
+/// The plan of a task, which is JSON, for a system.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)] // arguments from Python
-pub(crate) fn plan_json(
+pub(crate) fn plan_of(
     system: System<'_>,
     from: Option<Start>,
     task: &str,
     tile: Option<u32>,
-) -> Result<String, Trouble> {
-    text(&planned(&system, from, task, tile)?)
+) -> Result<PlanFields, Trouble> {
+    fields(&planned(&system, from, task, tile)?.canonical()?)
 }
 
 /// A plan with its result.
@@ -220,21 +220,15 @@ impl Answer {
 
 /// Keeps one of the branches only.
 fn only(answer: &mut vibroimpact_report::Answer, number: usize) {
-    fn keep<T>(all: &mut Vec<T>, number: usize) {
-        all.truncate(number + 1);
-        all.drain(..number.min(all.len()));
+    fn keep<D: Dynamics>(results: &mut Results<D>, number: usize) {
+        if let Results::Branch(found) = results {
+            found.followed.truncate(number + 1);
+            found.followed.drain(..number.min(found.followed.len()));
+        }
     }
     match answer {
-        vibroimpact_report::Answer::Oscillator(of) => {
-            if let Results::Branch(found) = &mut of.results {
-                keep(&mut found.followed, number);
-            }
-        }
-        vibroimpact_report::Answer::Machine(of) => {
-            if let machine::Results::Branch(found) = &mut of.results {
-                keep(&mut found.followed, number);
-            }
-        }
+        vibroimpact_report::Answer::Oscillator(of) => keep(&mut of.results, number),
+        vibroimpact_report::Answer::Machine(of) => keep(&mut of.results, number),
     }
 }
 
@@ -310,14 +304,10 @@ impl Answer {
                 only(changed, number);
             }
             if let (vibroimpact_report::Answer::Oscillator(of), Some(units)) = (&mut *changed, units) {
-                of.asked.units =
-                    Units { scales: Some(scales(units)), si: true, body: of.asked.system.body, ..Units::default() };
+                let body = of.written.body;
+                of.units = Units { scales: Some(scales(units)), si: true, body, ..Units::default() };
             }
-            let plan = match changed {
-                vibroimpact_report::Answer::Oscillator(of) => &mut of.plan,
-                vibroimpact_report::Answer::Machine(of) => &mut of.plan,
-            };
-            if let (Task::Response(task), Some(quantity)) = (&mut plan.task, quantity) {
+            if let (Task::Response(task), Some(quantity)) = (&mut changed.plan_mut().task, quantity) {
                 task.quantity = Some(quantity);
             }
         }
@@ -331,29 +321,29 @@ impl Answer {
     fn columns<'py>(&self, py: Python<'py>) -> Result<Option<Columns<'py>>, Trouble> {
         Ok(Some(match &*self.0 {
             vibroimpact_report::Answer::Oscillator(of) => match (&of.plan.task, &of.results) {
-                (_, Results::Simulate(_, found)) => {
-                    let object = |event| EventObject::of_oscillator(&of.osc, event, &Units::default());
+                (_, Results::Simulate(found)) => {
+                    let object = |event| EventObject::of_oscillator(&of.system, event, &Units::default());
                     Columns::Simulation(SimulationFields::new(py, found, 1, object))
                 }
-                (_, Results::Lyapunov(_, _, Some(points))) => {
-                    Columns::Section(SectionFields::of_oscillator(py, &of.osc, points)?)
+                (_, Results::Lyapunov(_, Some(points))) => {
+                    Columns::Section(SectionFields::of_oscillator(py, &of.system, points)?)
                 }
                 (Task::Response(task), Results::Response(found)) => {
                     let vary = Parameter::of(task.vary.text())?;
-                    Columns::Response(ResponseFields::of_oscillator(py, found, vary, &of.asked.system)?)
+                    Columns::Response(ResponseFields::of_oscillator(py, found, vary, &of.written)?)
                 }
                 _ => return Ok(None),
             },
             vibroimpact_report::Answer::Machine(of) => match &of.results {
-                machine::Results::Simulate(found) => {
-                    let object = |event| event::of_machine(&of.machine, event);
-                    Columns::Simulation(SimulationFields::new(py, found, of.machine.n(), object))
+                Results::Simulate(found) => {
+                    let object = |event| event::of_machine(&of.system, event);
+                    Columns::Simulation(SimulationFields::new(py, found, of.system.n(), object))
                 }
-                machine::Results::Lyapunov(_, Some(points)) => {
-                    let stops = points.closings.iter().map(|at| of.machine.name_of(at.place).to_owned()).collect();
-                    Columns::Section(SectionFields::of_machine(py, points, stops, of.machine.n())?)
+                Results::Lyapunov(_, Some(points)) => {
+                    let stops = points.closings.iter().map(|at| of.system.name_of(at.place).to_owned()).collect();
+                    Columns::Section(SectionFields::of_machine(py, points, stops, of.system.n())?)
                 }
-                machine::Results::Response(found) => {
+                Results::Response(found) => {
                     let units = vec![""; found.quantities.len()];
                     Columns::Response(ResponseFields::new(py, found, units, |row, k| row.quantities[k])?)
                 }

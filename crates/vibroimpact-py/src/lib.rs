@@ -18,6 +18,7 @@ mod palette;
 mod plan;
 mod points;
 mod region;
+mod section;
 mod settle;
 mod simulate;
 mod simulate_many;
@@ -27,7 +28,7 @@ mod store;
 #[pyo3::pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::answer::{Answer, answer, plan_json, shares_figure, title_of, varied_parameters};
+    use crate::answer::{Answer, answer, plan_of, shares_figure, title_of, varied_parameters};
     #[pymodule_export]
     use crate::command::vibro;
     #[pymodule_export]
@@ -56,9 +57,7 @@ mod _core {
     #[pymodule_export]
     use crate::simulate::waveform;
     #[pymodule_export]
-    use crate::simulate_many::{
-        crossings_of_points, end_reasons, simulate_points, states_of_points, strobes_of_points,
-    };
+    use crate::simulate_many::{end_reasons, simulate_points, states_of_points};
     #[pymodule_export]
     use crate::store::{Store, estimate_plan, seconds_of};
 

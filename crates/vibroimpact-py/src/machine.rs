@@ -4,6 +4,7 @@ use crate::columns::{column, grid};
 use crate::door::{self, Watch};
 use crate::error::Trouble;
 use crate::events::{EventFields, Events, code};
+use crate::section::{Section, States, columns};
 use crate::simulate::checked_step;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
@@ -13,7 +14,7 @@ use vibroimpact::regime::ContactState;
 use vibroimpact_report::json::event::of_machine;
 use vibroimpact_study::machine::{CATALOGUE, MachineFileError, MachineProblem, MachineSource, StartText};
 use vibroimpact_study::{
-    Control, Plan, PlanError, Results, Simulated, System, Task, events_with_states, machine, run, tiles,
+    Control, Plan, PlanError, PlanResults, Results, Simulated, System, Task, events_with_states, run, tiles,
 };
 
 /// A machine file that describes a machine.
@@ -215,16 +216,6 @@ fn each<T: Send + 'static>(
 /// Numbers that vary, as columns by path.
 type Numbers = Vec<(String, Vec<f64>)>;
 
-/// What is asked of a motion besides its events: the states at these times, those at a phase of the forcing in so many periods, or
-/// those where a coordinate crosses a position, up to so many periods.
-#[derive(FromPyObject)]
-pub(crate) enum Section {
-    Phase(f64, u32),
-    Position(String, f64, f64),
-    // last, because a tuple is a sequence too
-    At(Vec<f64>),
-}
-
 /// Time and phase, coordinates, and velocities.
 type State = (f64, f64, Vec<f64>, Vec<f64>);
 
@@ -273,21 +264,19 @@ pub(crate) fn states_of_machines<'py>(
     of: Section,
     threads: usize,
     progress: Option<Py<PyAny>>,
-) -> Result<(usize, Vec<Bound<'py, PyArray1<f64>>>), Trouble> {
+) -> Result<States<'py>, Trouble> {
     let n = file.0.machine()?.n();
     let found = each(py, file, (numbers, starts), (threads, progress), move |there, start, _| {
         let (machine, start) = there.starting(start).problem()?;
         section(&machine, &start, &of)
     })?;
-    let width = found.iter().map(Vec::len).max().unwrap_or(0);
-    let real = |value: &dyn Fn(&State) -> f64| {
-        let rows = found.iter().flat_map(|row| (0..width).map(|k| row.get(k).map_or(f64::NAN, value)));
-        column(py, rows)
+    let value = |(time, phase, q, qdot): &State, k: usize| match k {
+        0 => *time,
+        1 => *phase,
+        k if k < 2 + n => q[k - 2],
+        k => qdot[k - 2 - n],
     };
-    let both = [real(&|state| state.0), real(&|state| state.1)];
-    let coordinates = (0..n).map(|k| real(&|state| state.2[k]));
-    let velocities = (0..n).map(|k| real(&|state| state.3[k]));
-    Ok((width, both.into_iter().chain(coordinates).chain(velocities).collect()))
+    Ok(columns(py, &found, 2 + 2 * n, value))
 }
 
 /// Follows machines event by event, from one start each. `numbers` are columns of numbers that vary, by their paths.
@@ -307,7 +296,7 @@ pub(crate) fn simulate_machines<'py>(
         let plan =
             Plan::new(there.starting(start), Task::Simulate { start: None, impacts: limits.0, periods: limits.1 });
         match run(&plan, control)? {
-            Results::Machine(machine::Results::Simulate(found)) => Ok(found),
+            PlanResults::Machine(Results::Simulate(found)) => Ok(found),
             _ => Err(Trouble::Defect("following machines")),
         }
     })?;

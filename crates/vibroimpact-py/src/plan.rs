@@ -45,11 +45,18 @@ pub(crate) fn plan_schema() -> Result<String, Trouble> {
     text(&Plan::schema())
 }
 
-/// The plan in the form in which it is stored, its hash, its title, and the number of points of its grid.
+/// A plan in the form in which it is stored, its hash, its title, and the number of points of its grid.
+pub(crate) type PlanFields = (String, String, String, u64);
+
+/// Those of a plan.
+pub(crate) fn fields(plan: &Plan) -> Result<PlanFields, Trouble> {
+    Ok((text(plan)?, plan.hash(), plan.title(), points(plan)))
+}
+
+/// Those of a plan that is text.
 #[pyfunction]
-pub(crate) fn checked_plan(given: &str) -> Result<(String, String, String, u64), Trouble> {
-    let plan = read(given)?;
-    Ok((text(&plan)?, plan.hash(), plan.title(), points(&plan)))
+pub(crate) fn checked_plan(given: &str) -> Result<PlanFields, Trouble> {
+    fields(&read(given)?)
 }
 
 /// The units of length, time and mass of a body, the system of a plan as JSON, at points: columns of values of some of

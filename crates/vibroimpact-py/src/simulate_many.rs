@@ -4,10 +4,13 @@ use crate::door::{self, Watch};
 use crate::error::Trouble;
 use crate::oscillator::OscillatorFile;
 use crate::points::column;
+use crate::section::{Section, States, columns};
 use crate::simulate::{StartArgument, start_plan};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use vibroimpact::motion::{Level, Strobes, states_at};
+use vibroimpact::system::phase::wrap;
+use vibroimpact::{Oscillator, Start};
 use vibroimpact_study::{
     Control, END_REASONS, EventColumns, PlanError, PointsPlan, StartPlan, SystemPlan, real_numbers,
 };
@@ -34,10 +37,7 @@ impl Asked {
         self,
         py: Python<'_>,
         (threads, progress): (usize, Option<Py<PyAny>>),
-        work: impl Fn(&vibroimpact::Oscillator, vibroimpact::Start, &Control<'_>) -> Result<T, PlanError>
-        + Send
-        + Sync
-        + 'static,
+        work: impl Fn(&Oscillator, Start, &Control<'_>) -> Result<T, PlanError> + Send + Sync + 'static,
     ) -> Result<Vec<T>, Trouble> {
         let watch = Watch { what: "following motions", total: self.points.count(), progress, threads };
         door::run(py, watch, move |control| {
@@ -45,22 +45,6 @@ impl Asked {
             Ok(all.into_iter().collect::<Result<Vec<T>, PlanError>>()?)
         })
     }
-}
-
-/// Rows of different lengths as one array, filled up with `nothing`.
-fn padded<'py, T: numpy::Element + Copy>(
-    py: Python<'py>,
-    rows: usize,
-    width: usize,
-    nothing: T,
-    row: impl Fn(usize, &mut dyn FnMut(T)),
-) -> Bound<'py, PyArray1<T>> {
-    let mut all = Vec::with_capacity(rows * width);
-    for k in 0..rows {
-        row(k, &mut |value| all.push(value));
-        all.resize((k + 1) * width, nothing);
-    }
-    all.into_pyarray(py)
 }
 
 /// The events of many motions: rows of `room` cells each, as [`EventColumns`] describes them.
@@ -117,30 +101,7 @@ pub(crate) fn simulate_points<'py>(
     })
 }
 
-/// Times, positions, velocities and phases: rows of `width` states each.
-#[derive(IntoPyObject)]
-pub(crate) struct StateFields<'py> {
-    width: usize,
-    time: Bound<'py, PyArray1<f64>>,
-    x: Bound<'py, PyArray1<f64>>,
-    v: Bound<'py, PyArray1<f64>>,
-    phase: Bound<'py, PyArray1<f64>>,
-}
-
-/// A state: time, position, velocity and phase.
-type State = [f64; 4];
-
-impl<'py> StateFields<'py> {
-    fn new(py: Python<'py>, rows: &[Vec<State>]) -> Self {
-        let width = rows.iter().map(Vec::len).max().unwrap_or(0);
-        let part = |k: usize| {
-            padded(py, rows.len(), width, f64::NAN, |row, put| rows[row].iter().for_each(|state| put(state[k])))
-        };
-        Self { width, time: part(0), x: part(1), v: part(2), phase: part(3) }
-    }
-}
-
-/// The states of the motion at each point at these times, which rise.
+/// The states of the motion at each point in a section: times, phases, positions and velocities.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn states_of_points<'py>(
@@ -148,57 +109,31 @@ pub(crate) fn states_of_points<'py>(
     osc: OscillatorFile,
     over: Over<'py>,
     start: StartArgument,
-    times: Vec<f64>,
+    of: Section,
     threads: usize,
     progress: Option<Py<PyAny>>,
-) -> Result<StateFields<'py>, Trouble> {
-    let rows = Asked::new(osc, &over, start)?.each(py, (threads, progress), move |osc, start, _| {
-        let none = [f64::NAN; 4];
-        let states = states_at(osc, start, &times).into_iter().zip(&times);
-        Ok(states.map(|(state, time)| state.map_or(none, |of| [*time, of.x, of.v, of.phase])).collect())
-    })?;
-    Ok(StateFields::new(py, &rows))
+) -> Result<States<'py>, Trouble> {
+    let rows =
+        Asked::new(osc, &over, start)?.each(py, (threads, progress), move |osc, start, _| section(osc, start, &of))?;
+    Ok(columns(py, &rows, 4, |state, k| state[k]))
 }
 
-/// The first states of the motion at each point at one phase of the force.
-#[pyfunction]
-#[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)] // called from Python
-pub(crate) fn strobes_of_points<'py>(
-    py: Python<'py>,
-    osc: OscillatorFile,
-    over: Over<'py>,
-    start: StartArgument,
-    phase: f64,
-    count: usize,
-    threads: usize,
-    progress: Option<Py<PyAny>>,
-) -> Result<StateFields<'py>, Trouble> {
-    let rows = Asked::new(osc, &over, start)?.each(py, (threads, progress), move |osc, start, _| {
-        let first = vibroimpact::system::phase::wrap(phase - start.phase) / osc.beta();
-        #[allow(clippy::cast_precision_loss)] // counts below 2^53
-        let state = |(k, of): (usize, vibroimpact::Start)| [first + k as f64 * osc.period(), of.x, of.v, of.phase];
-        Ok(Strobes::new(osc, start, phase).take(count).enumerate().map(state).collect())
-    })?;
-    Ok(StateFields::new(py, &rows))
-}
-
-/// The crossings of a position by the motion at each point, up to a number of forcing periods.
-#[pyfunction]
-#[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)] // called from Python
-pub(crate) fn crossings_of_points<'py>(
-    py: Python<'py>,
-    osc: OscillatorFile,
-    over: Over<'py>,
-    start: StartArgument,
-    position: f64,
-    periods: f64,
-    threads: usize,
-    progress: Option<Py<PyAny>>,
-) -> Result<StateFields<'py>, Trouble> {
-    let rows = Asked::new(osc, &over, start)?.each(py, (threads, progress), move |osc, start, _| {
-        let level = Level::new(osc, position)?;
-        let state = |of: vibroimpact::motion::Crossing| [of.time, position, of.velocity, of.phase];
-        Ok(level.crossings(start, periods * osc.period()).map(state).collect())
-    })?;
-    Ok(StateFields::new(py, &rows))
+/// The states of a motion in a section.
+fn section(osc: &Oscillator, start: Start, of: &Section) -> Result<Vec<[f64; 4]>, PlanError> {
+    Ok(match of {
+        Section::At(times) => {
+            let states = states_at(osc, start, times).into_iter().zip(times);
+            states.map(|(state, time)| state.map_or([f64::NAN; 4], |of| [*time, of.phase, of.x, of.v])).collect()
+        }
+        Section::Phase(phase, count) => {
+            let first = wrap(phase - start.phase) / osc.beta();
+            let states = (0..*count).zip(Strobes::new(osc, start, *phase));
+            states.map(|(k, of)| [first + f64::from(k) * osc.period(), of.phase, of.x, of.v]).collect()
+        }
+        Section::Position(_, position, periods) => {
+            let crossings = Level::new(osc, *position)?;
+            let crossings = crossings.crossings(start, periods * osc.period());
+            crossings.map(|of| [of.time, of.phase, *position, of.velocity]).collect()
+        }
+    })
 }

@@ -55,7 +55,7 @@ impl<'a> BranchQuantity<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vibroimpact_study::{BranchPlan, Control, Plan, Results, machine, run};
+    use vibroimpact_study::{BranchPlan, Control, Plan, PlanResults, Results, run};
 
     /// The belt carries the mass to x = fs, and from there it swings about x = f with the speed V at the beginning.
     #[test]
@@ -64,8 +64,8 @@ mod tests {
         let branch: BranchPlan<String> = serde_json::from_str(r#"{"vary": "V", "to": 0.5}"#).unwrap();
         let plan = Plan::new(source.clone(), branch.clone());
         let (machine, cut) = (source.machine().unwrap(), branch.cut(&source).unwrap());
-        let Results::Machine(results) = run(&plan, &Control::default()).unwrap() else { panic!() };
-        let machine::Results::Branch(found) = results else { panic!() };
+        let results = run(&plan, &Control::default()).unwrap();
+        let PlanResults::Machine(Results::Branch(found)) = results else { panic!() };
         let quantity = BranchQuantity::of(&machine, &source, &cut, &found).unwrap();
         assert_eq!(quantity.path, "q.mass.displacement_max");
         let (holds, slides) = (source.number("fs").unwrap(), source.number("f").unwrap());

@@ -32,7 +32,7 @@ pub mod table;
 mod units;
 mod varied;
 
-pub use answer::{Answer, Shown, answer};
+pub use answer::{Answer, AnswerOf, Shown, Told, answer};
 pub use branch_quantity::BranchQuantity;
 pub use contact::{ContactAnswer, ContactObject};
 pub use error::{AnswerError, ReportError};

@@ -1,6 +1,7 @@
 //! The units of lengths, velocities and times in results.
 
 use crate::number::short;
+use crate::varied::{Varied, units_over};
 use vibroimpact::quantities::{Quantities, Quantity};
 use vibroimpact::{QuantityKind, Scales};
 use vibroimpact_study::{
@@ -92,12 +93,8 @@ impl Units {
 
     /// The units at point number `k` of the axes, the first of which varies fastest.
     #[must_use]
-    pub fn at_point(&self, axes: &[Axis], k: usize) -> Self {
-        if self.body.is_none() {
-            return *self;
-        }
-        let stride = |axis: usize| axes[..axis].iter().map(|axis| axis.over.count()).product::<usize>();
-        self.over(axes, |axis| axes[axis].over.at(k / stride(axis) % axes[axis].over.count()))
+    pub fn at_point<V: Varied>(&self, axes: &[Axis<V>], k: usize) -> Self {
+        if self.body.is_none() { *self } else { units_over(self, axes, &Axis::at(axes, k as u64)) }
     }
 
     fn factor(&self, of: impl Fn(&Scales) -> f64) -> f64 {

@@ -2,7 +2,7 @@
 
 use crate::limits::MOST_CELLS;
 use crate::name::{Name, Variable};
-use crate::{Block, Parameter, PlanError, Span, StartPlan, SystemPlan, Unit};
+use crate::{Parameter, PlanError, Span, StartPlan, SystemPlan, Unit};
 use core::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -371,10 +371,16 @@ pub fn typed_axes<W: Name>(axes: &[Axis<Variable>]) -> Result<Vec<Axis<W>>, Plan
     axes.iter().map(|axis| axis.named(&|name: &Variable| W::of(name.text()))).collect()
 }
 
-/// The error for axes with more results than one run keeps in memory.
-pub(crate) fn too_many(what: &'static str, axes: &[Axis]) -> PlanError {
+/// Checks that one run can keep the results of so many points in memory; a store has no such limit.
+///
+/// # Errors
+/// [`PlanError::Size`] for too many.
+pub(crate) fn check_memory<V>(what: &'static str, axes: &[Axis<V>]) -> Result<(), PlanError> {
+    if points(axes) <= MOST_CELLS {
+        return Ok(());
+    }
     let (first, others) = axes.split_at(axes.len().min(1));
-    PlanError::Size { what, columns: points(first), rows: points(others), most: MOST_CELLS }
+    Err(PlanError::Size { what, columns: points(first), rows: points(others), most: MOST_CELLS })
 }
 
 /// The system at a point of the axes: values on an axis replace those of `system`. `index(k)` is the place on axis `k`.
@@ -406,41 +412,32 @@ pub fn start_at(
     StartPlan { x: start.x.map(|_| x), v, ..start }
 }
 
-/// Checks the number and the kind of the axes, and that none occurs twice.
+/// Checks the number of the axes and their values, and that none occurs twice.
 ///
 /// # Errors
 /// [`PlanError`] for the first axis that is invalid.
-pub(crate) fn check(
+pub(crate) fn check<V: Name>(
     task: &'static str,
-    axes: &[Axis],
+    axes: &[Axis<V>],
     (least, most): (usize, usize),
-    (allowed, known): (fn(Coordinate) -> bool, &'static str),
 ) -> Result<(), PlanError> {
     if !(least..=most).contains(&axes.len()) {
         return Err(PlanError::Axes { given: axes.len(), task, least, most });
     }
-    for axis in axes {
-        if !allowed(axis.vary) {
-            return Err(PlanError::WrongAxis { task, name: axis.vary.name().into(), known });
-        }
-        axis.over.check()?;
-    }
-    none_twice(axes.iter().map(|axis| axis.vary))
+    axes.iter().try_for_each(|axis| axis.over.check())?;
+    none_twice(axes.iter().map(|axis| axis.vary.clone()))
 }
 
 /// Checks that nothing varies twice.
 ///
 /// # Errors
 /// [`PlanError::SameParameter`] for the first number that does.
-pub(crate) fn none_twice(varied: impl IntoIterator<Item = Coordinate>) -> Result<(), PlanError> {
-    let varied: Vec<Coordinate> = varied.into_iter().collect();
+pub(crate) fn none_twice<V: Name>(varied: impl IntoIterator<Item = V>) -> Result<(), PlanError> {
+    let varied: Vec<V> = varied.into_iter().collect();
     for (k, one) in varied.iter().enumerate() {
-        let same = |other: &&Coordinate| match (**other, *one) {
-            (Coordinate::Parameter(a), Coordinate::Parameter(b)) => a.same_number(b),
-            (a, b) => a == b,
-        };
-        if let Some(other) = varied[..k].iter().find(same) {
-            return Err(PlanError::SameParameter(other.name().into(), one.name().into()));
+        if let Some(other) = varied[..k].iter().find(|other| other.same_as(one)) {
+            let name = |of: &V| of.text().to_owned().into();
+            return Err(PlanError::SameParameter(name(other), name(one)));
         }
     }
     Ok(())
@@ -449,11 +446,6 @@ pub(crate) fn none_twice(varied: impl IntoIterator<Item = Coordinate>) -> Result
 /// Number of points of the grid over the axes; `u64::MAX` if it is larger.
 pub(crate) fn points<V>(axes: &[Axis<V>]) -> u64 {
     axes.iter().fold(1, |points, axis| u64::saturating_mul(points, axis.over.count() as u64))
-}
-
-/// All points of the axes as one block; the first axis varies fastest.
-pub(crate) fn whole(axes: &[Axis]) -> Block {
-    Block { ranges: axes.iter().rev().map(|axis| 0..axis.over.count()).collect() }
 }
 
 /// All combinations of the smallest and largest values of the axes, as indices of the values.

@@ -313,7 +313,7 @@ mod tests_of_machines {
     use super::*;
     use crate::machine::CATALOGUE;
     use crate::machine::MachineSource;
-    use crate::{Plan, Results, Task, machine, run};
+    use crate::{Plan, PlanResults, Results, Task, run};
     use vibroimpact::continuation::machine::{BranchEvent, SolutionPoint};
     use vibroimpact::orbit::machine::Cycle;
 
@@ -328,9 +328,7 @@ mod tests_of_machines {
 
     fn followed(source: &MachineSource, plan: &BranchPlan<String>) -> Branches<Cycle, SolutionPoint> {
         let plan = Plan::new(source.clone(), Task::from(plan.clone()));
-        let Results::Machine(machine::Results::Branch(found)) = run(&plan, &Control::default()).unwrap() else {
-            panic!()
-        };
+        let PlanResults::Machine(Results::Branch(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
         found
     }
 

@@ -310,7 +310,7 @@ mod tests {
 mod tests_of_machines {
     use super::*;
     use crate::machine::CATALOGUE;
-    use crate::{Plan, Results, Task, machine, run};
+    use crate::{Plan, PlanResults, Results, Task, run};
 
     fn plan(kind: FollowedEvent, event: Option<u32>) -> Plan {
         let entry = CATALOGUE.iter().find(|entry| entry.name == "bouncing-ball").unwrap();
@@ -336,9 +336,7 @@ mod tests_of_machines {
         let plan = plan(FollowedEvent::Fold, None);
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
-        let Results::Machine(machine::Results::Curve(found)) = run(&plan, &Control::default()).unwrap() else {
-            panic!()
-        };
+        let PlanResults::Machine(Results::Curve(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
         assert!(found.points.len() > 20 && found.points[found.begin].event.is_none());
         for point in &found.points {
             let (gamma, e) = point.values;

@@ -7,7 +7,7 @@
 //!
 //! | idea | file |
 //! |---|---|
-//! | a plan, and the one function that turns it into its result | [`Plan`], [`run`], [`Results`] |
+//! | a plan, and the one function that turns it into its result | [`Plan`], [`run`], [`PlanResults`], [`Results`] |
 //! | the parts of a plan: system, start, task | [`System`], [`SystemPlan`], [`StartPlan`], [`Task`] |
 //! | numbers as people type them | [`typed`] |
 //! | `A:B:N`, N values from A to B; a quantity and the values it takes | [`Span`], [`Axis`] |
@@ -21,7 +21,7 @@
 //! | the motion after its transient at each value of a parameter | [`DiagramPlan`], [`Diagram`], [`diagram`] |
 //! | the impacts of a motion on each of two stops | [`ImpactsByStop`] |
 //! | the plan for Lyapunov exponents of a motion | [`LyapunovPlan`] |
-//! | what tasks ask of an oscillator and of a machine alike | `dynamics` |
+//! | what tasks ask of an oscillator and of a machine alike | [`Dynamics`] |
 //! | a line along which orbits are followed | [`OrbitLine`] |
 //! | a branch of periodic orbits in one parameter, and the branches that begin on it | [`BranchPlan`], [`Branches`] |
 //! | the orbit at which a branch begins; the data of an event on a branch | [`Chosen`], [`EventRecord`] |
@@ -32,7 +32,6 @@
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 //! | machines as they are written, and their catalogue | [`machine`] |
-//! | the tasks of machines, and their results | [`machine::Results`] |
 //! | an oscillator in SI units; the units of a plan | [`Body`], [`UnitsPlan`] |
 //! | the quantities of a motion that a plan asks for | [`Quantity`], `quantity` |
 
@@ -55,7 +54,6 @@ mod in_memory;
 mod limits;
 mod lyapunov;
 pub mod machine;
-mod machine_plan;
 mod map;
 mod margins;
 mod name;
@@ -90,32 +88,31 @@ pub use control::{Control, Meter, Stopped, TileMeter, tiles};
 pub use curve::{CurvePlan, EventCurve, FollowedEvent};
 pub use cut::Cut;
 pub use diagram::{Diagram, DiagramPlan};
-pub use dynamics::{machine_label, quantity_path};
+pub use dynamics::{CycleOf, Dynamics, PointOf, Setup, machine_label, quantity_path};
 pub use error::{PlanError, RunError};
 pub use event_columns::{END_REASONS, EventColumns, REAL_COLUMNS};
 pub use event_record::EventRecord;
 pub use field::{Column, Extra, Field, NumberType};
 pub use grid::{Block, Dimension, Grid, number, place};
 pub use limits::PLAN_VERSION;
-pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
+pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan, SectionPoints};
 pub use machine::{Body, BodyNumber};
-pub use machine_plan::{ManyPlan, SectionPoints, events_with_states, most_events};
 pub use map::{MapPlan, RegionMap, Share};
 pub use margins::{
     BoxEdge, DEFAULT_LINES, DEFAULT_WITHIN, Loss, MarginEnd, MarginsPlan, MotionBox, MotionMargins, ParameterMargin,
     ScaledParameter, Scope,
 };
 pub use name::{Name, Variable};
-pub use orbit_line::{BranchPlace, OrbitLine, Solution};
+pub use orbit_line::{Along, BranchPlace, OrbitLine, Solution};
 pub use parameter::{Parameter, is_length, parameter_names};
 pub use plan::Plan;
 pub use plan_text::is_machine_plan;
-pub use points::{DrawnPoints, ListedColumn, PointRange, PointRule, PointsPlan};
+pub use points::{DrawnPoints, ListedColumn, ManyPlan, PointRange, PointRule, PointsPlan};
 pub use quantity::{Quantities, Quantity, unknown as unknown_quantity};
 pub use region::{DEFAULT_GRID, Over, RegionPlan, Regions, stability_regions};
 pub use response::{ResponseCurves, ResponsePlan, ResponseRow};
-pub use run::{Results, run};
-pub use simulate::{SEARCH_LIMIT, Simulated, simulate};
+pub use run::{Orbit, PlanResults, Results, run};
+pub use simulate::{SEARCH_LIMIT, Simulated, events_with_states, most_impacts, simulate};
 pub use simulate_many::{real_numbers, simulate_points};
 pub use span::Span;
 pub use stretch::{Stretch, Target};

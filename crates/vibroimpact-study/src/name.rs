@@ -29,6 +29,11 @@ pub trait Name: Clone + PartialEq + fmt::Debug {
     /// [`PlanError::Name`] if nothing has.
     fn of(name: &str) -> Result<Self, PlanError>;
 
+    /// Whether both are names of one number.
+    fn same_as(&self, other: &Self) -> bool {
+        self == other
+    }
+
     /// The key of the name in a table of a range.
     #[must_use]
     fn key(&self) -> &'static str {
@@ -68,6 +73,13 @@ impl Name for Coordinate {
             let known = parameter_names().join(", ");
             PlanError::Name(format!("`{}` cannot vary; what can is {known}, x, v and phase", short(name)))
         })
+    }
+
+    fn same_as(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Parameter(a), Self::Parameter(b)) => a.same_number(*b),
+            (a, b) => a == b,
+        }
     }
 }
 

@@ -145,6 +145,7 @@ impl Solution for machine::SolutionPoint {
 }
 
 /// The systems along a line: an oscillator with the parameters that vary, or a family of machines.
+#[allow(clippy::missing_errors_doc, reason = "they are those of the core")]
 pub trait Along: Sized {
     /// A point of a branch.
     type Point: Solution;

@@ -3,23 +3,19 @@
 //! Threads, output files and progress reports are not part of a plan. Each absent field has one meaning, which is
 //! documented here. Unknown fields are errors, so a misspelt parameter is not ignored.
 
-use crate::diagram::Show;
-use crate::dynamics::{Dynamics, Setup};
+use crate::dynamics::Dynamics;
 use crate::limits::{self, MOST_STARTS, PLAN_VERSION, starts};
 use crate::machine::MachineSource;
 use crate::map::check_impacts;
 use crate::name::{Name, Variable};
 use crate::simulate::{check_lengths, most_impacts};
-use crate::{
-    Axis, Coordinate, Parameter, PlanError, PointsPlan, Quantity, RegionPlan, StartPlan, System, SystemPlan, Task,
-    UnitsPlan, machine_plan,
-};
+use crate::{Axis, Parameter, PlanError, PointsPlan, RegionPlan, System, SystemPlan, Task, UnitsPlan};
 use serde::Serialize;
 
 /// A question: a system and a task.
 ///
 /// ```
-/// use vibroimpact_study::{Control, Plan, Results, run};
+/// use vibroimpact_study::{Control, Plan, PlanResults, Results, run};
 /// let plan = Plan::from_text(r#"
 ///     version = 1
 ///     [start]
@@ -31,8 +27,7 @@ use serde::Serialize;
 ///     [task.simulate]
 ///     impacts = 3
 /// "#)?;
-/// let Results::Machine(results) = run(&plan, &Control::default())? else { unreachable!() };
-/// let vibroimpact_study::machine::Results::Simulate(found) = results else { unreachable!() };
+/// let PlanResults::Machine(Results::Simulate(found)) = run(&plan, &Control::default())? else { unreachable!() };
 /// assert_eq!(found.events.iter().map(|event| event.time).collect::<Vec<_>>(), [1.0, 2.0, 2.5]);
 /// assert_eq!(Plan::from_text(&plan.to_toml())?, plan);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -168,7 +163,7 @@ impl Plan {
                 }
                 self.task.check(system)
             }
-            System::Machine(machine) => self.task.check_machine(machine),
+            System::Machine(machine) => self.task.check(&**machine),
         }
     }
 }
@@ -212,67 +207,21 @@ impl Task {
         }
     }
 
-    /// Checks the task of a machine.
-    fn check_machine(&self, source: &MachineSource) -> Result<(), PlanError> {
-        if self.start().is_some_and(Option::is_some) {
-            return Err(PlanError::StartTwice);
-        }
-        let own_starts = match self {
-            Self::Map(_) | Self::Diagram(_) | Self::Response(_) | Self::SettleMany(_) => true,
-            Self::Lyapunov(lyapunov) => !lyapunov.axes.is_empty(),
-            _ => false,
-        };
-        // points with starts of their own do not need that of the machine
-        let (machine, start) = if own_starts { source.described()? } else { source.problem()? };
-        let of = Setup { written: source, system: machine, start };
-        let machine = &of.system;
+    /// Checks the task of a system.
+    fn check<D: Dynamics>(&self, system: &D) -> Result<(), PlanError> {
+        let of = system.setup_of(self)?;
         match self {
-            Self::Simulate { impacts, periods, .. } => machine_plan::check_simulate(machine, (*impacts, *periods)),
+            Self::Simulate { impacts, periods, .. } => check_lengths(*impacts, *periods),
             Self::Settle { impacts, .. } => check_impacts(*impacts),
-            Self::Attractors { starts, impacts, .. } => machine_plan::check_starts(*starts, *impacts),
-            Self::Lyapunov(plan) => plan.typed::<String>()?.check(source, machine),
-            Self::SettleMany(plan) => plan.typed::<String>()?.check(source, machine),
-            Self::Margins(plan) => plan.typed::<String>()?.check(&of),
-            Self::Basin(plan) => plan.typed::<String, String>()?.check(machine),
-            Self::Map(plan) => plan.typed::<String, String>()?.check(source),
-            Self::Diagram(plan) => plan.typed::<String, String>()?.check(source),
-            task => task.check_alike(&of),
-        }
-    }
-
-    /// Checks the tasks whose plans are checked alike for every system.
-    fn check_alike<D: Dynamics>(&self, of: &Setup<'_, D>) -> Result<(), PlanError> {
-        match self {
+            Self::Attractors { starts: given, impacts, .. } => starts(*given, MOST_STARTS).and(check_impacts(*impacts)),
             Self::Orbit { label } => of.check_orbit((Some(label), None), false),
-            Self::Branch(plan) => plan.typed::<D::Name>()?.check(of),
-            Self::Curve(plan) => plan.typed::<D::Name>()?.check(of),
-            Self::Region(plan) => plan.typed::<D::Name>()?.check(of),
-            Self::Response(plan) => plan.typed::<D::Name, D::Quantity>()?.check(of),
+            Self::Branch(plan) => plan.typed::<D::Name>()?.check(&of),
+            Self::Curve(plan) => plan.typed::<D::Name>()?.check(&of),
+            Self::Region(plan) => plan.typed::<D::Name>()?.check(&of),
+            Self::Response(plan) => plan.typed::<D::Name, D::Quantity>()?.check(&of),
             _ => Ok(()),
-        }
-    }
-
-    /// Checks the task of an oscillator.
-    fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
-        let osc = system.oscillator()?;
-        match self {
-            Self::Simulate { start, impacts, periods } => {
-                check_lengths(*impacts, *periods)?;
-                start.unwrap_or_default().start(&osc).map(|_| ())
-            }
-            Self::Settle { start, impacts } => {
-                check_impacts(*impacts)?;
-                start.unwrap_or_default().start(&osc).map(|_| ())
-            }
-            Self::Attractors { starts: n, impacts, .. } => starts(*n, MOST_STARTS).and(check_impacts(*impacts)),
-            Self::Basin(basin) => basin.typed::<Coordinate, Quantity>()?.check(system),
-            Self::Map(map) => map.typed::<Coordinate, Quantity>()?.check(system),
-            Self::Diagram(diagram) => diagram.typed::<Parameter, Show>()?.check(system),
-            Self::Lyapunov(lyapunov) => lyapunov.typed::<Coordinate>()?.check(system),
-            Self::Margins(margins) => margins.typed::<Parameter>()?.check(system),
-            Self::SettleMany(_) => Err(PlanError::OfMachine),
-            task => task.check_alike(&system.setup(StartPlan::default())?),
-        }
+        }?;
+        D::check_own(&of, self)
     }
 }
 

@@ -346,8 +346,8 @@ mod tests {
 mod tests_of_machines {
     use super::*;
     use crate::dynamics::at_rest;
-    use crate::machine::MachineSource;
-    use crate::{Parameter, Plan, Results, Stretch, SystemPlan, machine, run};
+    use crate::machine::{MachineSource, no_files};
+    use crate::{Parameter, Plan, PlanResults, Results, Stretch, SystemPlan, run};
 
     const MACHINE: &str = r#"
         [machine]
@@ -367,7 +367,7 @@ mod tests_of_machines {
     "#;
 
     fn plan(change: impl Fn(&mut RegionPlan<String>)) -> Plan {
-        let source = MachineSource::from_text(MACHINE, machine::no_files).unwrap();
+        let source = MachineSource::from_text(MACHINE, no_files).unwrap();
         let stretch = |path: &str, from, to| Stretch { parameter: path.to_owned(), from, to };
         let across = stretch("frequency", 0.83, 0.95);
         let up = stretch("stop.wall.gap", 1.0, 2.5);
@@ -377,9 +377,7 @@ mod tests_of_machines {
     }
 
     fn regions(plan: &Plan) -> Regions {
-        let Results::Machine(machine::Results::Region(found)) = run(plan, &Control::default()).unwrap() else {
-            panic!()
-        };
+        let PlanResults::Machine(Results::Region(found)) = run(plan, &Control::default()).unwrap() else { panic!() };
         found
     }
 

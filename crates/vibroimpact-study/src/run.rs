@@ -1,62 +1,78 @@
-//! The function that computes the result of a plan in memory. The command, the page and the Python package call it.
+//! The results of tasks, and the function that computes that of a plan in memory. The command, the page and the Python package call
+//! it.
 
 use crate::branch::branches;
 use crate::curve::curve;
-use crate::in_memory::{DIAGRAM_TILE, attractors, basin, diagram, map};
+use crate::diagram::Diagram;
+use crate::dynamics::{CycleOf, Dynamics, PointOf};
+use crate::machine::MachineSource;
 use crate::map::options;
 use crate::margins::margins;
+use crate::name::Name;
 use crate::region::regions;
 use crate::response::response;
-use crate::simulate::simulate;
-use crate::study::SweepFill;
+use crate::simulate::TELL;
 use crate::{
-    Basin, Branches, Control, Diagram, EventCurve, LyapunovPlan, MarginsPlan, MotionMargins, Plan, PlanError,
-    RegionMap, Regions, ResponseCurves, RunError, Simulated, StartPlan, Stopped, System, SystemPlan, Task, machine,
-    machine_plan,
+    Basin, Branches, Control, EventCurve, LyapunovPlan, MotionMargins, Plan, PlanError, RegionMap, Regions,
+    ResponseCurves, RunError, Simulated, Stopped, System, SystemPlan, Task,
 };
 use core::sync::atomic::{AtomicU64, Ordering};
-use vibroimpact::chaos::{Exponents, Section, exponents_while, section_while};
-use vibroimpact::orbit::{FindOptions, Orbit, find_while};
-use vibroimpact::verdict::{Census, Settled, settle_while};
-use vibroimpact::{Label, Start};
+use vibroimpact::chaos::Exponents;
+use vibroimpact::orbit::{Cycle, EarlierContact};
+use vibroimpact::verdict::{Census, Settled};
 
-/// The result of a [`Task`], one variant for each.
+/// The result of a [`Task`] of an oscillator or of a machine, one variant for each kind of result.
 #[derive(Clone, Debug)]
-#[non_exhaustive]
 #[allow(clippy::large_enum_variant, reason = "there is one of them for a plan")]
-pub enum Results {
-    /// The start and the events of its motion.
-    Simulate(Start, Simulated),
-    /// The start and the result of settling its motion.
-    Settle(Start, Settled),
-    /// The attractors to which the starts lead.
-    Attractors(Census),
-    /// The orbits of a label.
-    Orbit(Vec<Orbit>),
+pub enum Results<D: Dynamics> {
+    /// The events of the motion.
+    Simulate(Simulated<D::Event>),
+    /// What the motion settles into.
+    Settle(Settled<D::System>),
+    /// The motions to which the starts lead, and how many lead to each.
+    Attractors(Census<D::System>),
+    /// The orbits of a label, the fastest last.
+    Orbit(Vec<Orbit<CycleOf<D>>>),
     /// The motion to which each start leads.
-    Basin(Basin),
+    Basin(Basin<D::System, D::Coordinate, D::Quantity>),
     /// The motions at each point.
-    Map(RegionMap),
+    Map(RegionMap<D::Coordinate, D::Quantity>),
     /// The motions at each value.
-    Diagram(Diagram),
-    /// The start, the exponents of its motion, and its sections if points of them were requested.
-    Lyapunov(Start, Exponents, Option<Section>),
+    Diagram(Diagram<D::Name, D::Shown>),
+    /// The exponents of the motion, and its sections if points of them were requested.
+    Lyapunov(Exponents<D::System>, Option<D::Sections>),
     /// A branch and the branches that begin on it.
-    Branch(Branches),
+    Branch(Branches<CycleOf<D>, PointOf<D>>),
     /// A curve of events.
-    Curve(EventCurve),
+    Curve(EventCurve<CycleOf<D>, PointOf<D>, D::CurvePoint>),
     /// The regions where a motion exists and where it is stable.
     Region(Regions),
     /// The motions of two sweeps, and their branches.
     Response(ResponseCurves),
-    /// The start, unless the motion is given by its label, and the distances of the motion from its nearest events.
-    Margins(Option<Start>, MotionMargins),
-    /// The result of a task of a machine.
-    Machine(machine::Results),
+    /// The distances of the motion from its nearest events.
+    Margins(MotionMargins<D::System, D::Name, PointOf<D>>),
 }
 
-/// Number of impacts of one motion between two reports.
-const TELL: u64 = 1024;
+/// An orbit with a label.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Orbit<C = Cycle> {
+    /// Its cycle.
+    pub cycle: C,
+    /// Whether it is a motion; a solution of the equations of an oscillator may pass through a stop.
+    pub admissible: bool,
+    /// The first contact that makes it inadmissible.
+    pub earlier: Option<EarlierContact>,
+}
+
+/// The result of a plan.
+#[derive(Clone, Debug)]
+#[allow(clippy::large_enum_variant, reason = "there is one of them for a plan")]
+pub enum PlanResults {
+    /// Of an oscillator.
+    Oscillator(Results<SystemPlan>),
+    /// Of a machine.
+    Machine(Results<MachineSource>),
+}
 
 /// Computes the result of a plan: every point of a grid, without refinement.
 ///
@@ -64,9 +80,9 @@ const TELL: u64 = 1024;
 /// step along the boundary of a region, and every point of a branch or curve.
 ///
 /// ```
-/// use vibroimpact_study::{Control, Plan, Results, run};
+/// use vibroimpact_study::{Control, Plan, PlanResults, Results, run};
 /// let plan = Plan::from_text(r#"{"version":1,"system":{"inverse_beta":1.8,"gap":0.25,"restitution":0.5},"task":{"settle":{"start":{}}}}"#)?;
-/// let Results::Settle(_, settled) = run(&plan, &Control::default())? else { unreachable!() };
+/// let PlanResults::Oscillator(Results::Settle(settled)) = run(&plan, &Control::default())? else { unreachable!() };
 /// assert_eq!(settled.verdict.label(), "4/1");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -74,18 +90,17 @@ const TELL: u64 = 1024;
 /// # Errors
 /// [`RunError`] for an invalid plan, or when stopped. A plan for exponents over axes is an error too, because it has no
 /// single result; it is computed as a [`Study`](crate::Study).
-pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
+pub fn run(plan: &Plan, control: &Control<'_>) -> Result<PlanResults, RunError> {
     plan.check()?;
-    match &plan.system {
-        System::Oscillator(system) => run_oscillator(system, plan, control),
-        System::Machine(machine) => Ok(Results::Machine(machine_plan::run(machine, &plan.task, control)?)),
-    }
+    Ok(match &plan.system {
+        System::Oscillator(system) => PlanResults::Oscillator(results(system, plan, control)?),
+        System::Machine(machine) => PlanResults::Machine(results(&**machine, plan, control)?),
+    })
 }
 
-/// Computes the result of the task of an oscillator, which was checked.
-fn run_oscillator(system: &SystemPlan, plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
-    let of = system.setup(StartPlan::default())?;
-    let osc = of.system;
+/// Computes the result of the task of a plan, which was checked, of its system.
+fn results<D: Dynamics>(system: &D, plan: &Plan, control: &Control<'_>) -> Result<Results<D>, RunError> {
+    let of = system.setup_of(&plan.task)?;
     // one motion reports its impacts
     let impacts = AtomicU64::new(0);
     let go_on = || {
@@ -95,55 +110,34 @@ fn run_oscillator(system: &SystemPlan, plan: &Plan, control: &Control<'_>) -> Re
         }
         !control.stopping()
     };
-    let stopped = Stopped { done: 0, total: plan.work().map_or(1, |(total, _)| total) };
     if control.stopping() {
-        return Err(stopped.into());
+        return Err(Stopped { done: 0, total: plan.work().map_or(1, |(total, _)| total) }.into());
     }
     Ok(match &plan.task {
-        Task::Simulate { start, impacts, periods } => {
-            let start = start.unwrap_or_default().start(&osc)?;
-            Results::Simulate(start, simulate(&osc, start, (*impacts, *periods), control)?)
-        }
-        Task::Settle { start, impacts } => {
-            let start = start.unwrap_or_default().start(&osc)?;
-            Results::Settle(start, settle_while(&osc, start, &options(*impacts), &go_on).ok_or(stopped)?)
-        }
+        Task::Simulate { impacts, periods, .. } => Results::Simulate(D::simulate(&of, (*impacts, *periods), control)?),
+        Task::Settle { impacts, .. } => Results::Settle(D::settle(&of.system, &of.start, *impacts, &go_on)?),
         Task::Attractors { starts, seed, impacts } => {
-            Results::Attractors(attractors(system, (*starts, *seed), &options(*impacts), control)?)
+            Results::Attractors(D::attractors(&of, (*starts, *seed), &options(*impacts), control)?)
         }
         Task::Orbit { label } => {
-            let label: Label = label.parse().map_err(PlanError::from)?;
-            Results::Orbit(find_while(&osc, label, FindOptions::default(), &go_on).ok_or(stopped)?)
-        }
-        Task::Basin(task) => Results::Basin(basin(system, &task.typed()?, control)?),
-        Task::Map(task) => Results::Map(map(system, &task.typed()?, control)?),
-        Task::Diagram(task) => {
-            let task = SweepFill::new(system, &task.typed()?, Some(DIAGRAM_TILE));
-            Results::Diagram(diagram(&task, control)?)
+            let label = D::label(&of.system, Some(label), false)?.ok_or(PlanError::NoLabel)?;
+            Results::Orbit(D::orbits(&of.system, label, &go_on)?)
         }
         Task::Lyapunov(task) => {
-            let task: LyapunovPlan = task.typed()?;
+            let task: LyapunovPlan<D::Coordinate> = task.typed()?;
             if let Some(axis) = task.axes.first() {
                 let (task, known) = ("measurement of one motion", "none: over axes it is a study");
-                return Err(PlanError::WrongAxis { task, name: axis.vary.name().into(), known }.into());
+                return Err(PlanError::WrongAxis { task, name: axis.vary.text().to_owned().into(), known }.into());
             }
-            let start = task.start().start(&osc)?;
-            let section = match task.points {
-                Some(points) => Some(section_while(&osc, start, task.lengths().1, points, &go_on).ok_or(stopped)?),
-                None => None,
-            };
-            let exponents = exponents_while(&osc, start, &task.options(), &go_on).ok_or(stopped)?;
-            Results::Lyapunov(start, exponents, section)
+            D::exponents(&of, &task, &go_on)?
         }
         Task::Branch(task) => Results::Branch(branches(&of, &task.typed()?, control)?),
         Task::Curve(task) => Results::Curve(curve(&of, &task.typed()?, control)?),
         Task::Region(task) => Results::Region(regions(&of, &task.typed()?, control)?),
         Task::Response(task) => Results::Response(response(&of, &task.typed()?, control)?),
-        Task::Margins(task) => {
-            let task: MarginsPlan = task.typed()?;
-            let of = system.setup(task.start())?;
-            Results::Margins(task.label.is_none().then_some(of.start), margins(&of, &task, control)?)
+        Task::Margins(task) => Results::Margins(margins(&of, &task.typed()?, control)?),
+        Task::Basin(_) | Task::Map(_) | Task::Diagram(_) | Task::SettleMany(_) => {
+            D::over_grid(&of, &plan.task, control)?
         }
-        Task::SettleMany(_) => return Err(PlanError::OfMachine.into()),
     })
 }

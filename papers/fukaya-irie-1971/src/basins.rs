@@ -10,7 +10,7 @@ use vibroimpact::{Oscillator, Start};
 use vibroimpact_plot::{
     ClassStyle, Colour, FigureAxis, Legend, Panel, Points, Raster, Shape, class_style, legend_text,
 };
-use vibroimpact_study::{Basin, BasinPlan, Plan, Results, Span, SystemPlan, Task};
+use vibroimpact_study::{Basin, BasinPlan, Plan, PlanResults, Results, Span, SystemPlan, Task};
 
 /// A basin and the values measured on it.
 struct Picture {
@@ -61,7 +61,7 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<Shares, Error> {
             ..SystemPlan::default()
         };
         let plan = Plan::new(system, Task::from(plan));
-        let Results::Basin(basin) = vibroimpact_study::run(&plan, run.control)? else {
+        let PlanResults::Oscillator(Results::Basin(basin)) = vibroimpact_study::run(&plan, run.control)? else {
             return Err(Error::Unexpected("a basin came out as something else"));
         };
         let picture = measure(point, (x, v), basin);

@@ -10,8 +10,8 @@ use crate::failure::Failure;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
 use vibroimpact_report::number::short;
-use vibroimpact_report::scene::{BifurcationEvent, bifurcation, machine_bifurcation};
-use vibroimpact_report::{Asked, Shown};
+use vibroimpact_report::scene::{BifurcationDiagram, BifurcationEvent, bifurcation, machine_bifurcation};
+use vibroimpact_report::{AnswerError, Asked, Shown, Told, Units, Varied as _};
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, ShowText, SweepDirection};
 use vibroimpact_study::{DiagramPlan, PlanError, System, Task, Values, Variable};
 
@@ -220,7 +220,6 @@ fn with_branches(
     session: &Session,
 ) -> Result<(), Failure> {
     let (plan, units) = (&question.plan, question.units);
-    let stopped = |error| respond::stopped(error, None);
     let silent = outputs.any();
     let text = match (&plan.system, &plan.task) {
         (System::Oscillator(system), Task::Diagram(task)) => {
@@ -229,18 +228,27 @@ fn with_branches(
                 return Err(Failure::bad("--branches has speeds or positions\nhint: --show velocity or --show strobe"));
             }
             let asked = Asked { system: *system, units };
-            let found =
-                session.watched(None, |control| bifurcation(&asked, &task, labels, control)).map_err(stopped)?;
-            outputs.write(session, || Ok(found.table()?), || Ok(found.figure()?))?;
-            listed(&found.events(), (units.column_of(task.vary), units.of(task.vary)))
+            let found = session.watched(None, |control| bifurcation(&asked, &task, labels, control));
+            written(found, &units, outputs, session)?
         }
         _ => {
             let name = question.machine.unwrap_or_default();
             let found = session.watched(None, |control| machine_bifurcation(name, plan, labels, control));
-            let found = found.map_err(stopped)?;
-            outputs.write(session, || Ok(found.table()?), || Ok(found.figure()?))?;
-            listed(&found.events(), (&found.behind.plan.vary, 1.0))
+            written(found, &Units::default(), outputs, session)?
         }
     };
     if silent { Ok(()) } else { session.print(&text) }
+}
+
+/// Writes the files of a diagram with branches. Returns its events as text.
+fn written<D: Told>(
+    found: Result<BifurcationDiagram<D>, AnswerError>,
+    units: &Units,
+    outputs: Outputs,
+    session: &Session,
+) -> Result<String, Failure> {
+    let found = found.map_err(|error| respond::stopped(error, None))?;
+    outputs.write(session, || Ok(found.table()?), || Ok(found.figure()?))?;
+    let vary = &found.behind.plan.vary;
+    Ok(listed(&found.events(), (vary.column(units), vary.unit(units))))
 }

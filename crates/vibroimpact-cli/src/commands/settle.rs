@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use vibroimpact::verdict::{PaperRule, paper_rule};
 use vibroimpact_report::scene::View;
 use vibroimpact_report::{Answer, Shown};
-use vibroimpact_study::{Results, Task};
+use vibroimpact_study::Task;
 
 /// What the motion from a start settles into, and on what grounds
 ///
@@ -113,10 +113,8 @@ pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
     let shown = args.look()?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
     let mut answer = respond::compute(&question, session)?;
-    if let (Some(rule), Answer::Oscillator(answer)) = (rule, &mut answer)
-        && let Results::Settle(start, _) = &answer.results
-    {
-        answer.paper_rule = Some((rule, paper_rule(&answer.osc, *start, rule)));
+    if let (Some(rule), Answer::Oscillator(answer)) = (rule, &mut answer) {
+        answer.paper_rule = Some((rule, paper_rule(&answer.system, answer.start, rule)));
     }
     respond::tell(&answer, (outputs, shown), session)
 }

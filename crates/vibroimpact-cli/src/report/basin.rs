@@ -2,45 +2,32 @@
 
 use crate::report::certainty::certainty;
 use crate::report::leading::leading;
-use crate::report::motion::{InUnits, Teller};
+use crate::report::motion::Teller;
 use crate::report::words::table;
-use vibroimpact::Oscillator;
-use vibroimpact::machine::Machine;
 use vibroimpact::verdict::Verdict;
-use vibroimpact_report::Units;
+use vibroimpact_report::AnswerOf;
 use vibroimpact_report::number::{percent, short};
 use vibroimpact_study::basin::BasinMeasures;
 use vibroimpact_study::{Basin, counted};
 
-/// One row for each motion, and the measures of the basin.
-pub(crate) fn text(found: &Basin, osc: &Oscillator) -> String {
-    let text = rows(&InUnits(osc, &Units::default()), found);
-    text + &found.measures().map_or_else(String::new, |measures| sentences(&measures))
-}
-
-/// The same of a machine, and the number of starts that are not allowed.
-pub(crate) fn of_machine(found: &Basin<Machine, String, String>, machine: &Machine) -> String {
-    let (text, refused) = (rows(machine, found), found.refused());
-    if refused == 0 { text } else { text + &format!("  {} beyond a rigid stop\n", counted(refused as u64, "start")) }
-}
-
-/// One row for each motion with the number and the share of its starts, and how certain the shares are.
-fn rows<T: Teller, V, F>(teller: &T, found: &Basin<T::System, V, F>) -> String {
+/// One row for each motion with the number and the share of its starts, how certain the shares are, and what is told beside it.
+pub(crate) fn text<D: Teller>(of: &AnswerOf<D>, found: &Basin<D::System, D::Coordinate, D::Quantity>) -> String {
     let motion = |m: usize| (&found.motions[m].verdict, found.motions[m].count, found.share(m));
     let motions: Vec<_> = found.by_count().into_iter().map(motion).collect();
     let counts: Vec<u64> = motions.iter().map(|motion| motion.1).collect();
     let heads = ["share", "starts", "<label", "<meaning"].map(str::to_owned);
-    let row = |(verdict, count, share): &(&Verdict<T::System>, u64, f64)| {
-        let meaning = teller.meaning(verdict) + &teller.by_stop(verdict);
+    let row = |(verdict, count, share): &(&Verdict<D::System>, u64, f64)| {
+        let meaning = D::meaning(of, verdict) + &D::by_stop(of, verdict);
         vec![percent(*share), count.to_string(), verdict.label().into_owned(), meaning]
     };
     let motions = leading(motions, |motion| motion.2, |motion| matches!(motion.0, Verdict::Undecided(_)));
     let total = counts.iter().sum();
-    table(&heads, &motions.rows(row, "motion", (2, 0, heads.len()))) + &certainty(counts.into_iter(), total)
+    let table = table(&heads, &motions.rows(row, "motion", (2, 0, heads.len())));
+    table + &certainty(counts.into_iter(), total) + &D::of_basin(found)
 }
 
 /// The entropies and the uncertainty exponent.
-fn sentences(of: &BasinMeasures) -> String {
+pub(super) fn sentences(of: &BasinMeasures) -> String {
     let Some(boundary) = of.boundary_entropy else { return String::new() };
     let mut text = format!(
         "\n  basin entropy {}, boundary entropy {} in boxes of {} x {} starts\n",

@@ -6,9 +6,10 @@ use std::fmt::Write;
 use vibroimpact::chaos::{Exponents, Grounds, Measured};
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::NoImpact;
-use vibroimpact_report::Units;
 use vibroimpact_report::json::lyapunov::scaled;
 use vibroimpact_report::number::short;
+use vibroimpact_report::{AnswerOf, Units};
+use vibroimpact_study::machine::MachineSource;
 
 /// The text of a measured number: `0.01862 +- 0.00023`, rounded according to its error; `minus infinity`, `none`, or
 /// the number alone if it is exact.
@@ -93,12 +94,13 @@ pub(crate) fn text(found: &Exponents, period: f64, units: &Units) -> String {
 }
 
 /// The same of a machine.
-pub(crate) fn of_machine(found: &Exponents<Machine>, machine: &Machine) -> String {
+pub(crate) fn of_machine(found: &Exponents<Machine>, of: &AnswerOf<MachineSource>) -> String {
+    let machine = &of.system;
     let ended = matches!(found.grounds, Grounds::Undecided { .. });
     let exponents = found.exponents.iter().filter(|_| !ended).enumerate();
     let period = machine.period().filter(|_| !ended);
     let told = Told {
-        motion: format!("{}: {}", found.motion.label(), machine.meaning(&found.motion)),
+        motion: format!("{}: {}", found.motion.label(), MachineSource::meaning(of, &found.motion)),
         time: "unit of time",
         exponents: exponents.map(|(k, of)| (format!("exponent {}", k + 1), *of)).collect(),
         period: machine.period(),

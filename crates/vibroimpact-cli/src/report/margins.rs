@@ -1,50 +1,19 @@
 //! The nearest events of a motion as text, and the box of parameters in which it was found.
 
-use crate::report::branch::because;
-use crate::report::motion::{InUnits, Teller};
+use crate::report::motion::Teller;
 use crate::report::words::table;
 use std::fmt::Write;
 use vibroimpact::Oscillator;
-use vibroimpact::continuation::{SolutionPoint, machine::SolutionPoint as Point};
-use vibroimpact::machine::Machine;
-use vibroimpact::verdict::System;
-use vibroimpact_report::json::branch::Event;
 use vibroimpact_report::number::{percent, precise, short};
-use vibroimpact_report::{Units, Varied};
-use vibroimpact_study::{Loss, MarginEnd, MotionBox, MotionMargins, ParameterMargin, Solution, counted};
+use vibroimpact_report::{AnswerOf, Units, Varied};
+use vibroimpact_study::{Loss, MarginEnd, MotionBox, MotionMargins, ParameterMargin, PointOf, Solution, counted};
 
-/// The motion of an oscillator, its nearest events in each parameter, and its box.
-pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> String {
-    let why =
-        |point: &SolutionPoint| point.event.map_or_else(String::new, |event| because(&Event::Oscillator(point, event)));
-    let mut text = events(found, (&InUnits(osc, units), osc), units, why);
-    match &found.motion_box {
-        _ if found.parameters.is_empty() => {}
-        Some(found_box) => text.push_str(&of_box(found_box, &found.parameters, &found.motion.label(), units)),
-        None => {
-            let stability = found.motion.stability(osc).map_or("undecided", |stability| stability.name());
-            let _ = writeln!(text, "\nno box: the motion is {stability}");
-        }
-    }
-    text
-}
-
-/// The motion of a machine, and its nearest events in each number.
-pub(crate) fn of_machine(found: &MotionMargins<Machine, String, Point>, machine: &Machine) -> String {
-    let why = |point: &Point| point.event.map_or_else(String::new, |event| because(&Event::Machine(machine, event)));
-    events(found, (machine, machine), &Units::default(), why)
-}
-
-/// The motion, and its nearest events in each number. `why` says what happens at an event.
-fn events<S: System, T: Teller<System = S>, V: Varied, P: Solution<System = S>>(
-    found: &MotionMargins<S, V, P>,
-    (teller, system): (&T, &S),
-    units: &Units,
-    why: impl Fn(&P) -> String,
-) -> String {
-    let stability = found.motion.stability(system);
+/// The motion, its nearest events in each number, and what is told beside them.
+pub(crate) fn text<D: Teller>(of: &AnswerOf<D>, found: &MotionMargins<D::System, D::Name, PointOf<D>>) -> String {
+    let (units, why) = (&of.units, |point: &PointOf<D>| D::because(of, point));
+    let stability = found.motion.stability(&of.system);
     let stable = stability.map_or_else(String::new, |stability| format!(", {stability}"));
-    let (by_stop, meaning) = (teller.by_stop(&found.motion), teller.meaning(&found.motion));
+    let (by_stop, meaning) = (D::by_stop(of, &found.motion), D::meaning(of, &found.motion));
     let mut text = format!("{}{by_stop}: {meaning}{stable}\n", found.motion.label());
     if found.parameters.is_empty() {
         text.push_str("  it is no single periodic motion, so it has no branch to follow and no margins\n");
@@ -57,14 +26,25 @@ fn events<S: System, T: Teller<System = S>, V: Varied, P: Solution<System = S>>(
         let _ = writeln!(
             text,
             "  nearest: {} at {} {}, {way} by {} of {}",
-            end.point.as_ref().and_then(P::event_name).unwrap_or_default(),
+            end.point.as_ref().and_then(Solution::event_name).unwrap_or_default(),
             margin.scope.parameter.words(units),
             precise(end.value * margin.scope.parameter.unit(units)),
             percent(end.scaled(&margin.scope)),
             whole(core::slice::from_ref(margin))
         );
     }
-    text
+    text + &D::of_margins(of, found)
+}
+
+/// The box of parameters of an oscillator.
+pub(super) fn of_box(found: &MotionMargins, osc: &Oscillator, units: &Units) -> String {
+    match &found.motion_box {
+        Some(found_box) => told_box(found_box, &found.parameters, &found.motion.label(), units),
+        None => {
+            let stability = found.motion.stability(osc).map_or("undecided", |stability| stability.name());
+            format!("\nno box: the motion is {stability}\n")
+        }
+    }
 }
 
 /// The columns of the events.
@@ -100,7 +80,7 @@ fn row<V: Varied, P: Solution>(
 }
 
 /// The box, and where the motion was lost next to it.
-fn of_box(found: &MotionBox, parameters: &[ParameterMargin], label: &str, units: &Units) -> String {
+fn told_box(found: &MotionBox, parameters: &[ParameterMargin], label: &str, units: &Units) -> String {
     let mut text = format!(
         "\nbox: each parameter within {} of {}; {label} was found by trying {} on {}, not proved\n",
         percent(found.size),

@@ -25,21 +25,18 @@ mod undecided;
 pub(crate) mod words;
 
 use crate::failure::Failure;
+use motion::Teller;
 use vibroimpact::events::End;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{Undecided, UndecidedCause, Verdict};
-use vibroimpact_report::answer::machine::Answer as MachineAnswer;
-use vibroimpact_report::answer::oscillator;
-use vibroimpact_report::response::ResponseView;
-use vibroimpact_report::{Answer, Units, Varied};
-use vibroimpact_study::machine::Results as MachineResults;
-use vibroimpact_study::{Name, Parameter, RegionPlan, Results, SEARCH_LIMIT, Task};
+use vibroimpact_report::{Answer, AnswerOf, Varied};
+use vibroimpact_study::{Name, Results, SEARCH_LIMIT, Task};
 
 /// The text that a command prints, unless JSON or a table on stdout was requested.
 pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
     match answer {
-        Answer::Oscillator(answer) => of_oscillator(answer),
-        Answer::Machine(answer) => of_machine(answer),
+        Answer::Oscillator(answer) => text_of(answer),
+        Answer::Machine(answer) => text_of(answer),
     }
 }
 
@@ -50,85 +47,46 @@ pub(crate) fn ended_by_search(answer: &Answer) -> bool {
     };
     match answer {
         Answer::Oscillator(answer) => {
-            matches!(&answer.results, Results::Simulate(_, found) if found.reason == SEARCH_LIMIT)
+            matches!(&answer.results, Results::Simulate(found) if found.reason == SEARCH_LIMIT)
         }
         Answer::Machine(answer) => match &answer.results {
-            MachineResults::Simulate(found) => found.reason == SEARCH_LIMIT,
-            MachineResults::Settle(found) => ended(&found.verdict),
-            MachineResults::Lyapunov(found, _) => ended(&found.motion),
+            Results::Simulate(found) => found.reason == SEARCH_LIMIT,
+            Results::Settle(found) => ended(&found.verdict),
+            Results::Lyapunov(found, _) => ended(&found.motion),
             _ => false,
         },
     }
 }
 
-fn of_oscillator(answer: &oscillator::Answer) -> Result<String, Failure> {
-    let oscillator::Answer { asked, osc, results, paper_rule, plan } = answer;
-    let units = &asked.units;
-    let system = || words::system(asked, osc) + "\n";
-    let from = |start| words::system(asked, osc) + &words::start(start, units);
-    Ok(match (&plan.task, results) {
-        (_, Results::Simulate(start, found)) => from(start) + &simulate::text(found, asked),
-        (_, Results::Settle(start, found)) => from(start) + "\n" + &settle::text(found, *paper_rule, osc, units),
-        (Task::Attractors { starts, .. }, Results::Attractors(found)) => {
-            words::system(asked, osc) + &attractors::text(found, *starts, osc, units)
-        }
-        (Task::Orbit { label }, Results::Orbit(found)) => system() + &orbit::text(found, label, osc, units),
-        (_, Results::Basin(found)) => system() + &basin::text(found, osc),
-        (Task::Map(task), Results::Map(found)) => map::text(found, task.starts, asked.system.second_stop.is_some()),
-        (_, Results::Diagram(found)) => diagram::text(found, units),
-        (_, Results::Lyapunov(start, found, _)) => from(start) + "\n" + &lyapunov::text(found, osc.period(), units),
-        (_, Results::Branch(found)) => {
-            system() + &branch::text(&answer.branches(found)?, None, (&answer.cut()?, units))
-        }
-        (_, Results::Curve(found)) => system() + &curve::text(&answer.curve(found)?, (&answer.curve_plan()?, units)),
-        (Task::Region(task), Results::Region(found)) => {
-            let task: RegionPlan = task.typed()?;
-            region::text(found, &task, (task.neutral(&asked.system), region::in_closed_form(&task)), units)
-        }
-        (Task::Response(task), Results::Response(found)) => response::text(
-            &ResponseView::of_oscillator(found, task, units)?,
-            &Parameter::of(task.vary.text())?.words(units),
-        ),
-        (_, Results::Margins(Some(start), found)) => from(start) + "\n" + &margins::text(found, osc, units),
-        (_, Results::Margins(None, found)) => system() + &margins::text(found, osc, units),
-        _ => return Err(Failure::Failed("the results belong to another task than the plan's".into())),
-    })
-}
-
-/// The same of a machine.
-fn of_machine(answer: &MachineAnswer) -> Result<String, Failure> {
-    let MachineAnswer { plan, machine, results, source, .. } = answer;
-    Ok(match (&plan.task, results) {
-        (Task::Simulate { periods, .. }, MachineResults::Simulate(found)) => {
-            simulate::of_machine(found, *periods, machine)
-        }
-        (_, MachineResults::Settle(found)) => settle::of_machine(found, machine),
-        (_, MachineResults::Attractors(found)) => attractors::of_machine(found, machine),
-        (Task::Orbit { label }, MachineResults::Orbit(found)) => orbit::of_machine(found, label, machine),
-        (_, MachineResults::Lyapunov(found, _)) => lyapunov::of_machine(found, machine),
-        (_, MachineResults::Branch(found)) => {
-            branch::text(&answer.branches(found)?, Some(machine), (&answer.cut()?, &Units::default()))
-        }
-        (_, MachineResults::Curve(found)) => {
-            curve::text(&answer.curve(found)?, (&answer.curve_plan()?, &Units::default()))
-        }
-        (_, MachineResults::Margins(found)) => margins::of_machine(found, machine),
-        (Task::Region(task), MachineResults::Region(found)) => {
-            let task: RegionPlan<String> = task.typed()?;
-            region::text(found, &task, (task.neutral(source), false), &Units::default())
-        }
-        (_, MachineResults::Response(found)) => {
-            answer.response(found).map_or_else(String::new, |view| response::text(&view, view.vary))
-        }
-        (_, MachineResults::Basin(found)) => basin::of_machine(found, machine),
-        (_, MachineResults::Diagram(found)) => diagram::text(found, &Units::default()),
-        (task, MachineResults::Map(found)) => {
+fn text_of<D: Teller>(of: &AnswerOf<D>) -> Result<String, Failure> {
+    let (units, machine) = (&of.units, D::machine(of));
+    let text = match &of.results {
+        Results::Simulate(found) => D::simulated(of, found),
+        Results::Settle(found) => settle::text(of, found),
+        Results::Attractors(found) => attractors::text(of, found),
+        Results::Orbit(found) => orbit::text(of, found),
+        Results::Basin(found) => basin::text(of, found),
+        Results::Map(found) => {
             // points that are no grid have one start each
-            let starts = if let Task::Map(task) = task { task.starts } else { 1 };
-            map::text(found, starts, false) + &map::seen(found)
+            let starts = if let Task::Map(task) = &of.plan.task { task.starts } else { 1 };
+            let seen = if machine.is_some() { map::seen(found) } else { String::new() };
+            map::text(found, starts, D::two_stops(of)) + &seen
         }
-        _ => return Err(Failure::Failed("the results belong to another task than the plan's".into())),
-    })
+        Results::Diagram(found) => diagram::text(found, units),
+        Results::Lyapunov(found, _) => D::exponents_told(of, found),
+        Results::Branch(found) => branch::text(&of.branches(found)?, machine, (&of.cut()?, units)),
+        Results::Curve(found) => curve::text(&of.curve(found)?, (&of.curve_plan()?, units)),
+        Results::Region(found) => {
+            let plan = of.region_plan()?;
+            region::text(found, &plan, (plan.neutral(&of.written), D::in_closed_form(&plan)), units)
+        }
+        Results::Response(found) => {
+            let vary = if let Task::Response(task) = &of.plan.task { task.vary.text() } else { "" };
+            response::text(&D::response(of, found)?, &D::Name::of(vary)?.words(units))
+        }
+        Results::Margins(found) => margins::text(of, found),
+    };
+    Ok(D::heading(of) + &text)
 }
 
 /// Hints for the next command.
@@ -141,7 +99,7 @@ pub(crate) fn hints(answer: &Answer) -> Vec<String> {
         }
         Results::Basin(_) => Some("--csv FILE keeps every start, --plot FILE.png draws them"),
         Results::Map(_) | Results::Diagram(_) => Some("--csv FILE keeps every point, --plot FILE.png draws them"),
-        Results::Lyapunov(_, _, None) => {
+        Results::Lyapunov(_, None) => {
             Some("--plot FILE.png draws the attractor; a longer --impacts narrows the error bars")
         }
         _ => None,

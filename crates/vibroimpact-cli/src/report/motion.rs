@@ -1,168 +1,264 @@
 //! Motions of any system as text: what is the same of all of them.
 
+use crate::report::branch::because;
 use crate::report::words::{
     self, ROUNDING_DECIDES, ROUNDING_GROWS, by_stop, counted_word, meaning, quantities as quantities_of_oscillator,
     table,
 };
+use crate::report::{basin, lyapunov, margins, orbit, region, settle, simulate};
 use core::fmt::Write;
-use vibroimpact::Oscillator;
-use vibroimpact::chaos::{Measured, Spectrum};
+use vibroimpact::chaos::{Exponents, Measured, Spectrum};
+use vibroimpact::continuation::{SolutionPoint, machine};
 use vibroimpact::events::{End, Event, EventKind, Limits};
 use vibroimpact::machine::{Machine, StopLaw};
 use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::quantities::machine::{Part, Quantities as PartQuantities};
 use vibroimpact::quantities::{Quantity, machine_cycle_quantities, machine_quantities, of_verdict};
-use vibroimpact::verdict::{Count, System, Undecided, UndecidedCause, Verdict};
-use vibroimpact_report::Units;
+use vibroimpact::verdict::{Count, Settled, StartBox, Undecided, UndecidedCause, Verdict};
+use vibroimpact_report::json::branch::Event as BranchEvent;
 use vibroimpact_report::json::undecided;
 use vibroimpact_report::number::short;
-use vibroimpact_study::counted;
+use vibroimpact_report::{AnswerOf, Told};
+use vibroimpact_study::machine::MachineSource;
+use vibroimpact_study::{
+    Basin, CycleOf, MotionMargins, Orbit, PointOf, RegionPlan, Simulated, SystemPlan, Task, counted,
+};
 
 /// A system whose motions are told.
-pub(super) trait Teller {
-    /// The kind of system.
-    type System: System;
+pub(super) trait Teller: Told {
+    /// What is told before the result: the system, and its start where there is one.
+    fn heading(_: &AnswerOf<Self>) -> String {
+        String::new()
+    }
 
     /// The meaning, as a sentence without full stop.
-    fn meaning(&self, verdict: &Verdict<Self::System>) -> String;
+    fn meaning(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> String;
 
     /// The impacts on each of several stops in brackets, after a blank; empty where the label says it.
-    fn by_stop(&self, verdict: &Verdict<Self::System>) -> String;
+    fn by_stop(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> String;
 
-    fn multipliers(&self, verdict: &Verdict<Self::System>) -> Option<Vec<Multiplier>>;
+    fn multipliers(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> Option<Vec<Multiplier>>;
 
     /// A quantity with its unit; a dash where it is not defined.
-    fn quantity(&self, verdict: &Verdict<Self::System>, quantity: Quantity) -> String;
+    fn quantity_text(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>, quantity: Quantity) -> String;
 
     /// The events of a cycle, one row each.
-    fn events(&self, verdict: &Verdict<Self::System>) -> String;
+    fn events_text(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> String;
 
-    fn stability(&self, verdict: &Verdict<Self::System>) -> Option<&'static str>;
+    fn stability_words(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> Option<&'static str>;
 
     /// The quantities that matter most.
-    fn quantities(&self, verdict: &Verdict<Self::System>) -> String;
+    fn quantities_text(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> String;
 
     /// The grounds of the verdict.
-    fn grounds(&self, verdict: &Verdict<Self::System>) -> String;
+    fn grounds(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> String;
 
     /// The complete text of one motion.
-    fn motion(&self, verdict: &Verdict<Self::System>) -> String {
-        let mut text = format!("{}{}: {}\n", verdict.label(), self.by_stop(verdict), self.meaning(verdict));
-        text.push_str(&self.events(verdict));
-        if let Some(stability) = self.stability(verdict) {
-            let multipliers = self.multipliers(verdict).filter(|all| !all.is_empty());
+    fn told(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> String {
+        let mut text = format!("{}{}: {}\n", verdict.label(), Self::by_stop(of, verdict), Self::meaning(of, verdict));
+        text.push_str(&Self::events_text(of, verdict));
+        if let Some(stability) = Self::stability_words(of, verdict) {
+            let multipliers = Self::multipliers(of, verdict).filter(|all| !all.is_empty());
             let told =
                 multipliers.map_or_else(String::new, |all| format!("; multipliers {}", words::multipliers(&all)));
             let _ = writeln!(text, "  {stability}{told}");
         }
-        text.push_str(&self.quantities(verdict));
-        let _ = writeln!(text, "  shown by: {}", self.grounds(verdict));
+        text.push_str(&Self::quantities_text(of, verdict));
+        let _ = writeln!(text, "  shown by: {}", Self::grounds(of, verdict));
         text
+    }
+
+    /// The events of a motion, and the reason why the list ends.
+    fn simulated(of: &AnswerOf<Self>, found: &Simulated<Self::Event>) -> String;
+
+    /// The word for an event that is followed, and what is told of a settled motion beside it.
+    fn followed(of: &AnswerOf<Self>, found: &Settled<Self::System>) -> (&'static str, String);
+
+    /// Where scattered starts are.
+    fn scattered(of: &AnswerOf<Self>, starts: u64) -> String;
+
+    /// What is told of a basin beside its motions.
+    fn of_basin(found: &Basin<Self::System, Self::Coordinate, Self::Quantity>) -> String;
+
+    /// An orbit; without one why there is none.
+    fn orbit_text(of: &AnswerOf<Self>, orbit: Option<&Orbit<CycleOf<Self>>>) -> String;
+
+    /// Exponents, and how they were obtained.
+    fn exponents_told(of: &AnswerOf<Self>, found: &Exponents<Self::System>) -> String;
+
+    /// Whether regions are known in closed form.
+    fn in_closed_form(_: &RegionPlan<Self::Name>) -> bool {
+        false
+    }
+
+    /// Whether motions are told with their impacts on each of two stops.
+    fn two_stops(_: &AnswerOf<Self>) -> bool {
+        false
+    }
+
+    /// What happens at the event at a point of a branch.
+    fn because(of: &AnswerOf<Self>, point: &PointOf<Self>) -> String;
+
+    /// What is told of margins beside the events.
+    fn of_margins(_: &AnswerOf<Self>, _: &MotionMargins<Self::System, Self::Name, PointOf<Self>>) -> String {
+        String::new()
     }
 }
 
-/// An oscillator, and the units in which its motions are told.
-pub(super) struct InUnits<'a>(pub(super) &'a Oscillator, pub(super) &'a Units);
+impl Teller for SystemPlan {
+    fn heading(of: &AnswerOf<Self>) -> String {
+        let system = words::system(&of.asked(), &of.system);
+        let start = || words::start(&of.start, &of.units);
+        match &of.plan.task {
+            Task::Map(_) | Task::Diagram(_) | Task::Region(_) | Task::Response(_) => String::new(),
+            Task::Attractors { .. } => system,
+            Task::Simulate { .. } => system + &start(),
+            Task::Settle { .. } | Task::Lyapunov(_) => system + &start() + "\n",
+            Task::Margins(plan) if plan.label.is_none() => system + &start() + "\n",
+            _ => system + "\n",
+        }
+    }
 
-impl Teller for InUnits<'_> {
-    type System = Oscillator;
-
-    fn meaning(&self, verdict: &Verdict) -> String {
+    fn meaning(_: &AnswerOf<Self>, verdict: &Verdict) -> String {
         meaning(verdict)
     }
 
-    fn by_stop(&self, verdict: &Verdict) -> String {
-        by_stop(verdict, self.0)
+    fn by_stop(of: &AnswerOf<Self>, verdict: &Verdict) -> String {
+        by_stop(verdict, &of.system)
     }
 
-    fn multipliers(&self, verdict: &Verdict) -> Option<Vec<Multiplier>> {
-        verdict.multipliers(self.0).map(Vec::from)
+    fn multipliers(of: &AnswerOf<Self>, verdict: &Verdict) -> Option<Vec<Multiplier>> {
+        verdict.multipliers(&of.system).map(Vec::from)
     }
 
-    fn quantity(&self, verdict: &Verdict, quantity: Quantity) -> String {
-        of_verdict(self.0, verdict).map_or_else(|| "-".into(), |all| self.1.text(&all, quantity))
+    fn quantity_text(of: &AnswerOf<Self>, verdict: &Verdict, quantity: Quantity) -> String {
+        of_verdict(&of.system, verdict).map_or_else(|| "-".into(), |all| of.units.text(&all, quantity))
     }
 
-    fn events(&self, verdict: &Verdict) -> String {
+    fn events_text(of: &AnswerOf<Self>, verdict: &Verdict) -> String {
         let Verdict::Periodic(cycle) = verdict else { return String::new() };
-        words::impacts(cycle, self.0, self.1)
+        words::impacts(cycle, &of.system, &of.units)
     }
 
-    fn stability(&self, verdict: &Verdict) -> Option<&'static str> {
-        let stability = verdict.stability(self.0);
-        let known = stability.is_some() || verdict.multipliers(self.0).is_some();
+    fn stability_words(of: &AnswerOf<Self>, verdict: &Verdict) -> Option<&'static str> {
+        let stability = verdict.stability(&of.system);
+        let known = stability.is_some() || verdict.multipliers(&of.system).is_some();
         let (free, chaotic) = (matches!(verdict, Verdict::NoImpact(_)), matches!(verdict, Verdict::Chaotic(_)));
         known.then(|| words::in_words(stability, free, chaotic))
     }
 
-    fn quantities(&self, verdict: &Verdict) -> String {
-        of_verdict(self.0, verdict).map_or_else(String::new, |of| quantities_of_oscillator(&of, self.1))
+    fn quantities_text(of: &AnswerOf<Self>, verdict: &Verdict) -> String {
+        of_verdict(&of.system, verdict).map_or_else(String::new, |all| quantities_of_oscillator(&all, &of.units))
     }
 
-    fn grounds(&self, verdict: &Verdict) -> String {
-        words::grounds(verdict, self.0, self.1)
+    fn grounds(of: &AnswerOf<Self>, verdict: &Verdict) -> String {
+        words::grounds(verdict, &of.system, &of.units)
+    }
+
+    fn simulated(of: &AnswerOf<Self>, found: &Simulated) -> String {
+        simulate::text(found, &of.asked())
+    }
+
+    fn followed(of: &AnswerOf<Self>, found: &Settled) -> (&'static str, String) {
+        let before = found.transient.map_or_else(String::new, |chaos| {
+            format!("  chaotic before: a transient that had ended at impact {}\n", chaos.impacts)
+        });
+        ("impact", before + &of.paper_rule.map_or_else(String::new, |(rule, verdict)| settle::of_paper(rule, verdict)))
+    }
+
+    fn scattered(of: &AnswerOf<Self>, starts: u64) -> String {
+        let (StartBox { x, v, .. }, units) = (StartBox::natural(&of.system), &of.units);
+        let [x, v] = [(x, units.length()), (v, units.velocity())]
+            .map(|((low, high), unit)| format!("{} to {}", short(low * unit), short(high * unit)));
+        format!("starts  {starts} in x {x}, v {v}, all phases\n\n")
+    }
+
+    fn of_basin(found: &Basin) -> String {
+        found.measures().map_or_else(String::new, |measures| basin::sentences(&measures))
+    }
+
+    fn orbit_text(of: &AnswerOf<Self>, orbit: Option<&Orbit>) -> String {
+        orbit::of_oscillator(of, orbit)
+    }
+
+    fn exponents_told(of: &AnswerOf<Self>, found: &Exponents) -> String {
+        lyapunov::text(found, of.system.period(), &of.units)
+    }
+
+    fn in_closed_form(plan: &RegionPlan) -> bool {
+        region::in_closed_form(plan)
+    }
+
+    fn two_stops(of: &AnswerOf<Self>) -> bool {
+        of.written.second_stop.is_some()
+    }
+
+    fn because(_: &AnswerOf<Self>, point: &SolutionPoint) -> String {
+        point.event.map_or_else(String::new, |event| because(&BranchEvent::Oscillator(point, event)))
+    }
+
+    fn of_margins(of: &AnswerOf<Self>, found: &MotionMargins) -> String {
+        margins::of_box(found, &of.system, &of.units)
     }
 }
 
-impl Teller for Machine {
-    type System = Machine;
-
-    fn meaning(&self, verdict: &Verdict<Machine>) -> String {
+impl Teller for MachineSource {
+    fn meaning(of: &AnswerOf<Self>, verdict: &Verdict<Machine>) -> String {
         match verdict {
             Verdict::Periodic(cycle) => meaning_of_cycle(cycle),
             Verdict::NoImpact(last) if last.fades() => words::EVER_GENTLER.to_owned(),
             Verdict::NoImpact(_) => {
-                let closed = closed(self, verdict);
+                let closed = closed(&of.system, verdict);
                 let closed = if closed.is_empty() { closed } else { format!("; it stays on {closed}") };
                 format!("no more impacts, ever{closed}")
             }
             Verdict::Chaotic(chaos) => format!("no repetition in {}", counted(chaos.impacts, "event")),
-            Verdict::Stuck(_) => format!("at rest on {} for ever", closed(self, verdict)),
+            Verdict::Stuck(_) => format!("at rest on {} for ever", closed(&of.system, verdict)),
             Verdict::Undecided(Undecided { why: UndecidedCause::Unconfirmed, .. }) => ROUNDING_DECIDES.to_owned(),
             Verdict::Undecided(_) => "nothing could be shown within the budget".to_owned(),
         }
     }
 
-    fn by_stop(&self, verdict: &Verdict<Machine>) -> String {
+    fn by_stop(of: &AnswerOf<Self>, verdict: &Verdict<Machine>) -> String {
         let Verdict::Periodic(cycle) = verdict else { return String::new() };
         let counts: Vec<String> =
-            self.stops().iter().zip(&cycle.counts).map(|(stop, count)| format!("{count} {}", stop.name)).collect();
+            of.system.stops().iter().zip(&cycle.counts).map(|(stop, count)| format!("{count} {}", stop.name)).collect();
         let said = counts.len() > 1 && cycle.counts.iter().any(|count| *count > 0);
         if said { format!(" ({})", counts.join(", ")) } else { String::new() }
     }
 
-    fn multipliers(&self, verdict: &Verdict<Machine>) -> Option<Vec<Multiplier>> {
+    fn multipliers(_: &AnswerOf<Self>, verdict: &Verdict<Machine>) -> Option<Vec<Multiplier>> {
         if let Verdict::Periodic(cycle) = verdict { Some(cycle.multipliers.clone()) } else { None }
     }
 
-    fn quantity(&self, verdict: &Verdict<Machine>, quantity: Quantity) -> String {
-        let all = machine_quantities(self, verdict);
-        let value = all.map_or(f64::NAN, |all| largest(&all, self, quantity));
+    fn quantity_text(of: &AnswerOf<Self>, verdict: &Verdict<Machine>, quantity: Quantity) -> String {
+        let all = machine_quantities(&of.system, verdict);
+        let value = all.map_or(f64::NAN, |all| largest(&all, &of.system, quantity));
         if value.is_finite() { short(value) } else { "-".to_owned() }
     }
 
-    fn events(&self, verdict: &Verdict<Machine>) -> String {
+    fn events_text(of: &AnswerOf<Self>, verdict: &Verdict<Machine>) -> String {
         let Verdict::Periodic(cycle) = verdict else { return String::new() };
-        events_of_cycle(self, cycle)
+        events_of_cycle(&of.system, cycle)
     }
 
-    fn stability(&self, verdict: &Verdict<Machine>) -> Option<&'static str> {
+    fn stability_words(of: &AnswerOf<Self>, verdict: &Verdict<Machine>) -> Option<&'static str> {
         let chaotic = matches!(verdict, Verdict::Chaotic(_));
-        let stability = verdict.stability(self);
+        let stability = verdict.stability(&of.system);
         stability.map(|stability| words::in_words(Some(stability), false, chaotic))
     }
 
-    fn quantities(&self, verdict: &Verdict<Machine>) -> String {
-        let drift = if let Verdict::Periodic(cycle) = verdict { drift(self, cycle) } else { String::new() };
+    fn quantities_text(of: &AnswerOf<Self>, verdict: &Verdict<Machine>) -> String {
+        let drift = if let Verdict::Periodic(cycle) = verdict { drift(&of.system, cycle) } else { String::new() };
         let found = match verdict {
-            Verdict::Periodic(cycle) => machine_cycle_quantities(self, cycle),
-            _ => machine_quantities(self, verdict),
+            Verdict::Periodic(cycle) => machine_cycle_quantities(&of.system, cycle),
+            _ => machine_quantities(&of.system, verdict),
         };
-        drift + &found.map_or_else(String::new, |found| quantities(self, &found))
+        drift + &found.map_or_else(String::new, |found| quantities(&of.system, &found))
     }
 
-    fn grounds(&self, verdict: &Verdict<Machine>) -> String {
+    fn grounds(_: &AnswerOf<Self>, verdict: &Verdict<Machine>) -> String {
         match verdict {
             Verdict::Periodic(cycle) => {
                 format!("Newton's method on its events returns to itself within {:.0e}", cycle.residual.max(1e-16))
@@ -189,6 +285,39 @@ impl Teller for Machine {
                 format!("{} without a cycle: {why}{exponent}", counted(*events, "event"))
             }
         }
+    }
+
+    fn simulated(of: &AnswerOf<Self>, found: &Simulated<Event>) -> String {
+        let periods = if let Task::Simulate { periods, .. } = &of.plan.task { *periods } else { None };
+        simulate::of_machine(found, periods, &of.system)
+    }
+
+    fn followed(_: &AnswerOf<Self>, found: &Settled<Machine>) -> (&'static str, String) {
+        let before = if found.transient.is_some() { "  chaotic before: a transient that has ended\n" } else { "" };
+        ("event", before.to_owned())
+    }
+
+    fn scattered(_: &AnswerOf<Self>, starts: u64) -> String {
+        format!("starts  {starts}\n\n")
+    }
+
+    fn of_basin(found: &Basin<Machine, String, String>) -> String {
+        match found.refused() {
+            0 => String::new(),
+            refused => format!("  {} beyond a rigid stop\n", counted(refused as u64, "start")),
+        }
+    }
+
+    fn orbit_text(of: &AnswerOf<Self>, orbit: Option<&Orbit<Cycle>>) -> String {
+        orbit.map_or_else(String::new, |orbit| Self::told(of, &Verdict::Periodic(orbit.cycle.clone())))
+    }
+
+    fn exponents_told(of: &AnswerOf<Self>, found: &Exponents<Machine>) -> String {
+        lyapunov::of_machine(found, of)
+    }
+
+    fn because(of: &AnswerOf<Self>, point: &machine::SolutionPoint) -> String {
+        point.event.map_or_else(String::new, |event| because(&BranchEvent::Machine(&of.system, event)))
     }
 }
 

@@ -1,53 +1,38 @@
 //! The orbits with a label as text: admissible ones and inadmissible solutions of the equations.
 
-use crate::report::motion::{InUnits, Teller};
+use crate::report::motion::Teller;
 use crate::report::words::{by_stop, impacts, multipliers, stop_name};
-use vibroimpact::machine::Machine;
-use vibroimpact::orbit::{Orbit, machine::Cycle};
+use vibroimpact::Label;
 use vibroimpact::verdict::Verdict;
-use vibroimpact::{Label, Oscillator};
-use vibroimpact_report::Units;
+use vibroimpact_report::AnswerOf;
 use vibroimpact_report::number::short;
+use vibroimpact_study::{CycleOf, Orbit, SystemPlan, Task};
 
-/// The text of all orbits of a label.
-pub(crate) fn text(orbits: &[Orbit], label: &str, osc: &Oscillator, units: &Units) -> String {
-    if orbits.is_empty() {
-        // the label has been parsed before, so this does not fail
-        let label = label.parse().unwrap_or(Label::new(0, 1));
-        let mut text = none(label);
-        if label == Label::new(0, 1) {
-            text.push_str("without damping, motions without impacts are no single cycle: `vibro settle` finds them\n");
-        }
-        return text;
-    }
-    numbered(orbits.iter().map(|orbit| one(orbit, osc, units)))
-}
-
-/// The same of a machine.
-pub(crate) fn of_machine(cycles: &[Cycle], label: &str, machine: &Machine) -> String {
-    if cycles.is_empty() {
-        return none(label.trim());
-    }
-    numbered(cycles.iter().map(|cycle| machine.motion(&Verdict::Periodic(cycle.clone()))))
-}
-
-fn none(label: impl core::fmt::Display) -> String {
-    format!("no orbit {label} was found\n")
-}
-
-/// The texts of orbits, with their numbers if there are several.
-fn numbered(orbits: impl ExactSizeIterator<Item = String>) -> String {
+/// The text of all orbits of a label, with their numbers if there are several.
+pub(crate) fn text<D: Teller>(of: &AnswerOf<D>, orbits: &[Orbit<CycleOf<D>>]) -> String {
     let count = orbits.len();
-    let one = |(k, text): (usize, String)| {
+    if count == 0 {
+        let label = if let Task::Orbit { label } = &of.plan.task { label.trim() } else { "" };
+        let label = label.parse().map_or_else(|_| label.to_owned(), |label: Label| label.to_string());
+        return format!("no orbit {label} was found\n{}", D::orbit_text(of, None));
+    }
+    let one = |(k, orbit): (usize, &Orbit<CycleOf<D>>)| {
+        let text = D::orbit_text(of, Some(orbit));
         if count > 1 { format!("orbit {} of {count}\n{text}", k + 1) } else { text }
     };
-    orbits.enumerate().map(one).collect::<Vec<_>>().join("\n")
+    orbits.iter().enumerate().map(one).collect::<Vec<_>>().join("\n")
 }
 
-/// The text of one orbit.
-fn one(orbit: &Orbit, osc: &Oscillator, units: &Units) -> String {
-    if orbit.physical {
-        return InUnits(osc, units).motion(&Verdict::Periodic(orbit.cycle.clone()));
+/// The text of an orbit of an oscillator; without one why there may be none.
+pub(super) fn of_oscillator(of: &AnswerOf<SystemPlan>, orbit: Option<&Orbit>) -> String {
+    let (osc, units) = (&of.system, &of.units);
+    let Some(orbit) = orbit else {
+        let free = matches!(&of.plan.task, Task::Orbit { label } if label.parse() == Ok(Label::new(0, 1)));
+        let why = "without damping, motions without impacts are no single cycle: `vibro settle` finds them\n";
+        return if free { why } else { "" }.to_owned();
+    };
+    if orbit.admissible {
+        return SystemPlan::told(of, &Verdict::Periodic(orbit.cycle.clone()));
     }
     let cycle = &orbit.cycle;
     let by_stop = by_stop(&Verdict::Periodic(cycle.clone()), osc);

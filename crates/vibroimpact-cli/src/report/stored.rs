@@ -16,12 +16,11 @@ use vibroimpact_report::number::{Number, percent};
 use vibroimpact_report::table::diagram;
 use vibroimpact_report::{PROGRAM, Units};
 use vibroimpact_store::{Store, StoreError};
-use vibroimpact_study::study::{
-    Along, NO_MOTION, NOT_COMPUTED, REFUSED, UNDECIDED, diagram_of, label_of, machine_diagram_of,
-};
+use vibroimpact_study::machine::MachineSource;
+use vibroimpact_study::study::{Along, NO_MOTION, NOT_COMPUTED, REFUSED, UNDECIDED, label_of};
 use vibroimpact_study::{
-    Axis, BasinPlan, Block, Column, Dimension, Field, Plan, PlanError, PointsPlan, Quantity, System, Task, Values,
-    Variable, typed_axes,
+    Axis, BasinPlan, Block, Column, Dimension, Dynamics, Field, Plan, PlanError, PointsPlan, Quantity, System,
+    SystemPlan, Task, Values, Variable, typed_axes,
 };
 
 /// A JSON object about a store.
@@ -172,12 +171,12 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     match (&plan.system, &plan.task) {
         (System::Oscillator(system), Task::Diagram(task)) => {
             let task = task.typed().map_err(io::Error::other)?;
-            let found = diagram_of(&task, &columns().map_err(io::Error::other)?);
+            let found = SystemPlan::diagram_of(&task, &columns().map_err(io::Error::other)?);
             return diagram::table(&found, system, Units::of_plan(plan)).map_err(io::Error::other)?.write(out);
         }
         (System::Machine(machine), Task::Diagram(task)) => {
             let task = task.typed().map_err(io::Error::other)?;
-            let found = machine_diagram_of(&task, &columns().map_err(io::Error::other)?);
+            let found = MachineSource::diagram_of(&task, &columns().map_err(io::Error::other)?);
             let (machine, _) = machine.described().map_err(io::Error::other)?;
             return diagram::table(&found, &machine, Units::default()).map_err(io::Error::other)?.write(out);
         }

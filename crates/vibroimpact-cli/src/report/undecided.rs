@@ -1,8 +1,8 @@
 //! What decides more, where motions are undecided.
 
 use vibroimpact::verdict::{SettleOptions, Undecided, UndecidedCause, Verdict};
-use vibroimpact_report::answer::oscillator::Answer;
-use vibroimpact_study::{Results, Task};
+use vibroimpact_report::AnswerOf;
+use vibroimpact_study::{Results, SystemPlan, Task};
 
 /// The largest budget of impacts.
 const MOST: u32 = 1_000_000;
@@ -12,7 +12,7 @@ const MOST_MEASURED: u64 = 10_000_000;
 const LABEL: &str = "undecided";
 
 /// The flag that decides more of the undecided motions; `None` if there are none, or if more impacts would not help.
-pub(super) fn hint(answer: &Answer) -> Option<String> {
+pub(super) fn hint(answer: &AnswerOf<SystemPlan>) -> Option<String> {
     let (budget, several) = match &answer.plan.task {
         Task::Settle { impacts, .. } => (*impacts, false),
         Task::Attractors { impacts, .. } => (*impacts, true),
@@ -20,7 +20,7 @@ pub(super) fn hint(answer: &Answer) -> Option<String> {
         Task::Map(task) => (task.impacts, true),
         Task::Response(task) => (task.impacts, true),
         Task::Lyapunov(task) => {
-            let open = matches!(&answer.results, Results::Lyapunov(_, found, _) if unsettled(&found.motion));
+            let open = matches!(&answer.results, Results::Lyapunov(found, _) if unsettled(&found.motion));
             let (impacts, _) = task.lengths();
             let longer = impacts.saturating_mul(10).min(MOST_MEASURED);
             return (open && longer > impacts).then(|| format!("--impacts {longer} measures over more impacts"));
@@ -28,7 +28,7 @@ pub(super) fn hint(answer: &Answer) -> Option<String> {
         _ => return None,
     };
     let open = match &answer.results {
-        Results::Settle(_, found) => unsettled(&found.verdict),
+        Results::Settle(found) => unsettled(&found.verdict),
         Results::Attractors(found) => found.motions().iter().any(|motion| unsettled(&motion.verdict)),
         Results::Basin(found) => found.motions.iter().any(|motion| unsettled(&motion.verdict)),
         Results::Map(found) => found.motions().any(|motion| motion.label == LABEL),

@@ -1,5 +1,7 @@
 """The steady motions to which scattered starts lead, and the share of the starts that lead to each."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

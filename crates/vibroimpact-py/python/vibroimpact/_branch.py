@@ -1,5 +1,7 @@
 """Branches of periodic orbits in one number or along a line through two, with their events."""
 
+from __future__ import annotations
+
 import copy
 from collections.abc import Mapping
 from functools import cached_property

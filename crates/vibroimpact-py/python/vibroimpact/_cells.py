@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact._core import QuestionError
-from vibroimpact._figure import legend, new_axes
+from vibroimpact._figure import legend, name_axes, new_axes
 from vibroimpact._palette import class_colour, legend_words, variant
 from vibroimpact._stated import along, named, title
 
@@ -44,9 +44,7 @@ def plot(ds: "xr.Dataset", ax: "Axes | None") -> "Axes":
     ax.pcolormesh(xs, ys, cells, cmap=colours, vmin=-0.5, vmax=len(classes) - 0.5, rasterized=True)
     handles = [Patch(facecolor=colour, edgecolor="0.4", linewidth=0.6, label=name) for name, colour in classes]
     legend(ax, handles)
-    ax.set_xlabel(named(ds, across))
-    ax.set_ylabel(named(ds, up))
-    ax.set_title(title(ds, (across, up)))
+    name_axes(ax, named(ds, across), named(ds, up), title(ds, (across, up)))
     return ax
 
 
@@ -78,9 +76,7 @@ def _shares(ds: "xr.Dataset", ax: "Axes | None", dim: str) -> "Axes":
         bottom += height
     ax.set_xlim(min(xs[0], xs[-1]), max(xs[0], xs[-1]))
     ax.set_ylim(0, 1)
-    ax.set_xlabel(named(ds, dim))
-    ax.set_ylabel("share of starts")
-    ax.set_title(title(ds, (dim,)))
+    name_axes(ax, named(ds, dim), "share of starts", title(ds, (dim,)))
     legend(ax)
     return ax
 

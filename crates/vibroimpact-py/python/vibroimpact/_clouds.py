@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from vibroimpact._core import QuestionError
-from vibroimpact._figure import ARRIVAL, SYMBOLS, legend, new_axes, span
+from vibroimpact._figure import ARRIVAL, SYMBOLS, legend, name_axes, new_axes, span
 from vibroimpact._palette import SERIES
 from vibroimpact._points import shown_path
 from vibroimpact._stated import along, named, symbol, title
@@ -84,9 +84,7 @@ def plot(ds: "xr.Dataset", ax: "Axes | None", which: str | None) -> "Axes":
     beside = [name for name in SYMBOLS if name in ds.coords and ds[name].dims == (vary,) and name != vary]
     ends = np.argsort(values)[[0, -1]]
     with_ = (span(named(ds, name), *ds[name].values[ends]) for name in beside)
-    ax.set_xlabel(", with ".join([named(ds, vary), *with_]))
-    ax.set_ylabel(drawn[which])
-    ax.set_title(title(ds, (vary, *beside)))
+    name_axes(ax, ", with ".join([named(ds, vary), *with_]), drawn[which], title(ds, (vary, *beside)))
     legend(ax)
     return ax
 

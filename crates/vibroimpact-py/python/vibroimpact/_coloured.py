@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vibroimpact._cells import axes_of, edges, in_order
 from vibroimpact._core import QuestionError
-from vibroimpact._figure import legend, new_axes
+from vibroimpact._figure import legend, name_axes, new_axes
 from vibroimpact._palette import class_colour, legend_words
 from vibroimpact._stated import named, title
 from vibroimpact._unit_names import unit_of
@@ -145,12 +145,8 @@ def _plane(
             handles.append(Patch(**look, linewidth=0.6, label=reason))
     ax.set_xlim(min(xs[0], xs[-1]), max(xs[0], xs[-1]))
     ax.set_ylim(min(ys[0], ys[-1]), max(ys[0], ys[-1]))
-    if handles or sentence:
-        ax.legend(handles=handles, title=sentence, loc="upper center", bbox_to_anchor=(0.5, -0.13), frameon=False,
-                  ncols=max(len(handles), 1))
-    ax.set_xlabel(named(ds, across))
-    ax.set_ylabel(named(ds, up))
-    ax.set_title(title(ds, (across, up)))
+    name_axes(ax, named(ds, across), named(ds, up), title(ds, (across, up)))
+    legend(ax, handles, below=sentence or "")
     return ax
 
 
@@ -190,8 +186,6 @@ def _dots(
         if here.any():
             y, mark = {"infinite": (high + away, "^"), "undecided": (low - away, "x")}.get(reason, (low - 2 * away, "+"))
             ax.plot(xs[here], np.full(int(here.sum()), y), mark, color=colour, markersize=size, label=reason)
-    ax.set_xlabel(named(ds, dim))
-    ax.set_ylabel(_quantity(ds, name))
-    ax.set_title(title(ds, (dim,)))
+    name_axes(ax, named(ds, dim), _quantity(ds, name), title(ds, (dim,)))
     legend(ax)
     return ax

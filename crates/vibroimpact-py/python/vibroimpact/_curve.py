@@ -1,5 +1,7 @@
 """Curves of an event of an orbit in a plane of two numbers."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

@@ -24,6 +24,8 @@ SYMBOLS = {
 ARRIVAL = r"arrival velocity $u_-$"
 #: Width of axes in inches below which there is no room for a legend beside them, and how far below the axes it then begins.
 _NARROW, _BELOW = 3.6, 0.42
+#: Number of entries above which a narrow legend has three columns.
+_MANY = 6
 _TOKENS = re.compile(r"\\(.)|(\*\*)|(\*)|([_^])(?:\{([^}]*)\}|(.))|([^\\*_^]+)")
 
 
@@ -36,23 +38,35 @@ def new_axes(ax: "Axes | None", size: tuple[float, float]) -> "Axes":
     return plt.subplots(figsize=size, layout="constrained")[1]
 
 
-def legend(ax: "Axes", handles: "list[Patch] | None" = None) -> None:
-    """Add a legend where it covers nothing: to the right of the axes, or below them if they are as narrow as a column of text."""
-    of = handles or ax.get_legend_handles_labels()[0]
-    if not of:
+def name_axes(ax: "Axes", x: str | None = None, y: str | None = None, title: str | None = None) -> None:
+    """Name the axes and set the title, in several lines where one is too long."""
+    for name, text in (("xlabel", x), ("ylabel", y), ("title", title)):
+        if text is not None:
+            ax.set(**{name: text})
+    for of in (ax.xaxis.label, ax.yaxis.label, ax.title):
+        of.set_wrap(True)
+
+
+def legend(ax: "Axes", handles: "list[Patch] | None" = None, *, below: str | None = None) -> None:
+    """Add a legend where it covers nothing: to the right of the axes, or below them if they are as narrow as a column of text, or if
+    there is a colour bar; then it has the title `below`."""
+    of = handles if handles is not None else ax.get_legend_handles_labels()[0]
+    if not of and not below:
         return
     # of one label once: several figures may be in these axes
-    once: dict[str, Any] = {}
-    for handle in of:
-        once.setdefault(str(handle.get_label()), handle)
-    if ax.get_position().width * ax.figure.get_figwidth() >= _NARROW:  # type: ignore[union-attr]
-        ax.legend(handles=list(once.values()), loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, borderaxespad=0.0)
+    once = {str(handle.get_label()): handle for handle in reversed(of)}
+    shown = list(reversed(once.values()))
+    narrow = ax.get_position().width * ax.figure.get_figwidth() < _NARROW  # type: ignore[union-attr]
+    if below is None and not narrow:
+        ax.legend(handles=shown, loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, borderaxespad=0.0)
         return
     from matplotlib.transforms import ScaledTranslation
 
-    below = ax.transAxes + ScaledTranslation(0, -_BELOW, ax.figure.dpi_scale_trans)
-    ax.legend(handles=list(once.values()), loc="upper center", bbox_to_anchor=(0.5, 0.0), bbox_transform=below, frameon=False,
-              borderaxespad=0.0, ncols=2, fontsize="x-small", columnspacing=1.0, handlelength=1.5, handletextpad=0.5)
+    columns = {"ncols": 3 if len(shown) > _MANY else 2, "columnspacing": 1.0, "handlelength": 1.5, "handletextpad": 0.5}
+    place = ax.transAxes + ScaledTranslation(0, -_BELOW, ax.figure.dpi_scale_trans)
+    small = "x-small" if narrow else "small"
+    ax.legend(handles=shown, title=below or None, loc="upper center", bbox_to_anchor=(0.5, 0.0), bbox_transform=place, frameon=False,
+              borderaxespad=0.0, fontsize=small, title_fontsize=small, **(columns if narrow else {"ncols": max(len(shown), 1)}))
 
 
 def equal(symbol: str, value: float) -> str:

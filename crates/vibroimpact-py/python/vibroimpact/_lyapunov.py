@@ -1,5 +1,7 @@
 """Lyapunov exponents of a motion and the dimension of its attractor."""
 
+from __future__ import annotations
+
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -8,8 +10,8 @@ from numpy.typing import NDArray
 from vibroimpact import _core
 from vibroimpact._figure import heading, named
 from vibroimpact._motion import Motion, all_measured, maybe_measured
+from vibroimpact._palette import SERIES
 from vibroimpact._result import Field, Made, Part, View, equal
-from vibroimpact._styled import styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -106,12 +108,31 @@ class Lyapunov(View):
         self, ax: Any = None, *, si: bool = False, legend: bool = True, title: str | None = None, **line: Any
     ) -> "Axes":
         """Draw the exponents with their error bars, per unit of time of the system."""
-        from vibroimpact import _exponents
-
         if not self.exponents:
             raise _core.QuestionError("there are no exponents: the motion ended before they could be measured")
-        exponents, head = self.exponents, f"{heading(self.system)}: {named(self.motion.label)}"
-        return styled(lambda ax: _exponents.plot(exponents, self.exact, head, ax), ax, legend, title, line)
+        known = [(k + 1, of.value, np.nan_to_num(of.error)) for k, of in enumerate(self.exponents) if np.isfinite(of.value)]
+        if not known:
+            raise _core.QuestionError("there are no finite exponents to draw")
+        place, value, error = np.array(known).T
+        bars = [[low, high, np.nan] for low, high in zip(value - error, value + error)]
+        look = {"colour": SERIES[0], "size": 10, "shape": "circle", "filled": True, "rim": None}
+        stroke = {"colour": SERIES[0], "width": 2.5, "dash": "solid"}
+        marks = [
+            {"h_line": {"y": 0.0, "stroke": {"colour": "#999999", "width": 1.2, "dash": "solid"}}},
+            {"points": {"xs": place, "ys": value, "style": look}},
+            {"line": {"xs": np.repeat(place, 3), "ys": np.concatenate(bars), "stroke": stroke}},
+        ]
+        count, name = len(self.exponents), "exact" if self.exact else "with three standard errors"
+        ticks = [{"value": k, "label": str(k)} for k in range(1, count + 1)]
+        across = {"label": "number of the exponent", "scale": "linear", "range": (0.5, count + 0.5), "ticks": ticks}
+        up = {"label": "exponent per unit of time", "scale": "linear", "range": None, "ticks": None}
+        figure = {
+            "panels": [{"marks": marks, "x": across, "y": up, "caption": None}], "columns": 1, "width": 640, "height": 360,
+            "title": None, "legend": {"entries": [{"key": {"point": look}, "label": name}]},
+        }
+        head = title if title is not None else f"{heading(self.system)}: {named(self.motion.label)}"
+        drawn: Axes = self._painted(figure, ax, legend, head, line)
+        return drawn
 
     def plot_sections(
         self, axes: Any = None, *, legend: bool = True, title: str | None = None, **line: Any

@@ -1,5 +1,7 @@
 """How far a periodic motion is from the events that end or change it."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 

@@ -1,5 +1,7 @@
 """A steady motion of any system: its kind, the events of its cycle, its stability and its quantities."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple

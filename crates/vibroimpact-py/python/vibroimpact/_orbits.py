@@ -1,5 +1,7 @@
 """The periodic orbits with a label, stable or not."""
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 import numpy as np

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact._core import QuestionError
-from vibroimpact._figure import legend, mathtext
+from vibroimpact._figure import legend, mathtext, name_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -52,15 +52,15 @@ def paint(figure: Mapping[str, Any], axes: Any = None) -> Any:
         _axis(ax.xaxis, ax.set_xlim, panel["x"])
         _axis(ax.yaxis, ax.set_ylim, panel["y"])
         if captions:
-            ax.set_title(mathtext(panel["caption"]))
+            name_axes(ax, title=mathtext(panel["caption"]))
     if not captions:
-        drawn[0].set_title(mathtext(figure["title"] or ""))
+        name_axes(drawn[0], title=mathtext(figure["title"] or ""))
     _legend(drawn, panels, figure["legend"] or {"entries": []})
     return drawn[0] if len(panels) == 1 else drawn
 
 
 def _axis(axis: Any, limits: Any, of: Mapping[str, Any]) -> None:
-    axis.set_label_text(mathtext(of["label"]))
+    axis.set_label_text(mathtext(of["label"]), wrap=True)
     if of["scale"] == "log10":
         axis.axes.set(**{f"{axis.axis_name}scale": "log"})
     if of["range"] is not None:

@@ -83,7 +83,10 @@ class Plan:
     points: int = field(init=False, compare=False)
 
     def __post_init__(self) -> None:
-        for name, value in zip(("json", "hash", "title", "points"), _core.checked_plan(self.json)):
+        self._set(_core.checked_plan(self.json))
+
+    def _set(self, found: tuple[str, str, str, int]) -> None:
+        for name, value in zip(("json", "hash", "title", "points"), found):
             object.__setattr__(self, name, value)
 
     def __repr__(self) -> str:
@@ -204,7 +207,11 @@ class Plan:
 def made(system: System, task: str, fields: Mapping[str, Any], tile: int | None, start: Start) -> Plan:
     """The plan of a task with these fields, of which None are absent."""
     asked = json.dumps({task: {name: of.item() if isinstance(of, np.generic) else of for name, of in fields.items() if of is not None}})
-    text = _core.plan_json(system._file, start.of_machine, asked, maybe("tile", tile, TILE))
+    found = _core.plan_of(system._file, start.of_machine, asked, maybe("tile", tile, TILE))
     units = system.units if isinstance(system, Oscillator) else None
-    # the numbers of the plan are nondimensional; its results can be converted with these units
-    return Plan(text if units is None else json.dumps({**json.loads(text), "units": asdict(units)}))
+    if units is not None:
+        # the numbers of the plan are nondimensional; its results can be converted with these units
+        return Plan(json.dumps({**json.loads(found[0]), "units": asdict(units)}))
+    plan = object.__new__(Plan)
+    plan._set(found)
+    return plan

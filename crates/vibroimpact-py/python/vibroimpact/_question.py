@@ -71,12 +71,17 @@ def _documented(made: Any, body: Callable[..., Any], further: Mapping[str, Any],
     text = words[0] + "".join(
         _WORDS[name] + rest if name in _WORDS else f"{{{part}" for part in words[1:] for name, _, rest in [part.partition("}")]
     )
-    signature = inspect.signature(body)
-    keyword = inspect.Parameter.KEYWORD_ONLY
-    own = [*signature.parameters.values()]
-    more = [inspect.Parameter(name, keyword, default=value) for name, value in further.items() if name not in signature.parameters]
+    # as `inspect.signature`, which takes ten times as long
+    code, kinds = body.__code__, inspect.Parameter
+    own = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+    first = own[: code.co_argcount]
+    usual = {**further, **dict(zip(reversed(first), reversed(body.__defaults__ or ()))), **(body.__kwdefaults__ or {})}
+    parameters = [
+        kinds(name, kinds.POSITIONAL_OR_KEYWORD if name in first else kinds.KEYWORD_ONLY, default=usual.get(name, kinds.empty))
+        for name in dict.fromkeys((*own, *further))
+    ]
     made = wraps(body)(made)
-    made.__doc__, made.__signature__ = text, signature.replace(parameters=[*own, *more])
+    made.__doc__, made.__signature__ = text, inspect.Signature(parameters, __validate_parameters__=False)
     del made.__wrapped__
     made.returns = returns
     return made

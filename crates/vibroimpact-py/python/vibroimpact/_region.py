@@ -1,5 +1,7 @@
 """The regions of a plane of two parameters in which a motion exists and in which it is stable."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any

@@ -1,5 +1,7 @@
 """A quantity of all motions over one parameter: branches, stable or not, and the motions of sweeps up and down."""
 
+from __future__ import annotations
+
 import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any

@@ -141,7 +141,7 @@ class View(Result):
     ) -> None:
         self.system, self._answer, self._start = system, answer, start
         if of is not None:
-            self._of = of
+            self.__dict__["_of"] = of
 
     #: The object, and the rows of its columns.
     _of: Made[dict[str, Any]] = Made(lambda view: view._read(view._answer))
@@ -275,7 +275,7 @@ class Rows(Result):
 class Sequence(View, Generic[V]):
     """The base of answers that are sequences of views, which are the attribute `_items`."""
 
-    _items: "_Lazy[list[V]]"
+    _items: Made[list[V]]
 
     def __iter__(self) -> "Iterator[V]":
         return iter(self._items)

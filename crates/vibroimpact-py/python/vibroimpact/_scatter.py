@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 from vibroimpact._cells import classes_of
 from vibroimpact._core import QuestionError
-from vibroimpact._figure import legend, new_axes
+from vibroimpact._figure import legend, name_axes, new_axes
 from vibroimpact._stated import named, title
 
 if TYPE_CHECKING:
@@ -34,8 +34,6 @@ def plot(ds: "xr.Dataset", ax: "Axes | None") -> "Axes":
         here = cells[:, 0] == k
         ax.plot(ds[across].values[here], ds[up].values[here], "o", color=colour, markersize=size, markeredgecolor="0.38",
                 markeredgewidth=0.5, label=name, rasterized=len(cells) > 5000)
-    ax.set_xlabel(named(ds, across))
-    ax.set_ylabel(named(ds, up))
-    ax.set_title(title(ds, (across, up)))
+    name_axes(ax, named(ds, across), named(ds, up), title(ds, (across, up)))
     legend(ax)
     return ax

@@ -1,5 +1,7 @@
 """Settling of motions, from one start or from arrays of starts."""
 
+from __future__ import annotations
+
 import copy
 import json
 from collections.abc import Sequence
@@ -49,7 +51,6 @@ class Settled(Motion):
 
     _object: Made[dict[str, Any]] = Made(lambda of: of._read(of._answer))
     _of: Made[dict[str, Any]] = Made(lambda of: of._object["motion"])
-    plan: Made[str] = Made(lambda of: json.dumps(of._object["plan"]))
     motion: Made[Motion] = Made(lambda of: Motion(of._of, of.system))
     events_followed: Made[int] = Made(lambda of: of._object["events_followed"])
     time_followed: Made[float] = Made(lambda of: of._object["time_followed"])
@@ -58,6 +59,11 @@ class Settled(Motion):
     transient: Made[dict[str, Any] | None] = Made(lambda of: of._complete.get("transient"))
     # the object that the command prints: its harmonics and transient take another settling
     _complete: Made[dict[str, Any]] = Made(lambda of: json.loads(of._whole.json(False)))
+
+    @property
+    def plan(self) -> str:
+        """The plan as JSON."""
+        return json.dumps(self._object["plan"])
 
     def to_dict(self) -> dict[str, Any]:
         """The object that the command prints with --json."""

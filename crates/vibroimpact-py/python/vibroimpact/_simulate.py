@@ -1,5 +1,7 @@
 """Simulation of a motion event by event."""
 
+from __future__ import annotations
+
 import json
 from typing import Any
 

@@ -113,24 +113,20 @@ def simulate_many(
     if phase is not None and turns < 1:
         raise QuestionError(f"periods = {periods} is less than one period, so there may be no state at the phase")
     strobes = None if phase is None else (_finite("phase", phase), math.floor(turns))
-    if isinstance(system, Machine):
-        of_machine = _over.machine_points(system, over, starts)
-        crossing = None if position is None else (*_place(system, position), turns)
-        section = times.tolist() if times is not None else strobes or crossing
-        with watched(progress, "motions") as tell:
-            if section is None:
-                return _events_of_machines(of_machine, _core.simulate_machines(*_asked(of_machine), (limit, periods), threads, tell))
-            return _states_of_machines(of_machine, times, _core.states_of_machines(*_asked(of_machine), section, threads, tell))
-    points = _over.points(system, over, starts)
+    of = system if isinstance(system, Machine) else None
+    points: Over | MachineOver = _over.points(system, over, starts) if of is None else _over.machine_points(of, over, starts)  # type: ignore[arg-type]
+    crossing = None if position is None else (*_place(points.osc if isinstance(points, Over) else points.machine, position), turns)
+    section = times.tolist() if times is not None else strobes or crossing
     with watched(progress, "motions") as tell:
+        if isinstance(points, MachineOver):
+            asked = _asked(points)
+            if section is None:
+                return _events_of_machines(points, _core.simulate_machines(*asked, (limit, periods), threads, tell))
+            return _states(points, times, _core.states_of_machines(*asked, section, threads, tell))
         common = (points.osc._file, points.columns, points.start)
-        if times is not None:
-            return _at_times(points, times, _core.states_of_points(*common, times.tolist(), threads, tell))
-        if strobes is not None:
-            return _states(points, _core.strobes_of_points(*common, *strobes, threads, tell))
-        if position is not None:
-            return _states(points, _core.crossings_of_points(*common, _place(points.osc, position)[1], turns, threads, tell))
-        return _events(points, _core.simulate_points(*common, (limit, periods), threads, tell))
+        if section is None:
+            return _events(points, _core.simulate_points(*common, (limit, periods), threads, tell))
+        return _states(points, times, _core.states_of_points(*common, section, threads, tell))
 
 
 def _place(system: System, position: float | Mapping[str, float]) -> tuple[str, float]:
@@ -245,20 +241,31 @@ def _events_of_machines(points: MachineOver, found: dict[str, Any]) -> "xr.Datas
     return _dataset_of_machines(points, variables, "events of motions")
 
 
-def _states_of_machines(
-    points: MachineOver, times: NDArray[np.float64] | None, found: tuple[int, list[NDArray[np.float64]]]
+def _states(
+    points: Over | MachineOver, times: NDArray[np.float64] | None, found: tuple[int, list[NDArray[np.float64]]]
 ) -> "xr.Dataset":
-    """The Dataset of the states of machines: at given times, or of a section."""
+    """The Dataset of states: at given times, or of a section."""
+    from vibroimpact import _many
     from vibroimpact._unit_names import described
 
     width, (time, phase, *states) = found
     further = ("state" if times is None else "time", width)
-    of_time = {} if times is not None else {"time": _variable(points, time, further, "time since the start", "", "")}
-    variables = {**of_time, "force_phase": _variable(points, phase, further, "phase of the forcing", "", "rad")}
-    paths = [path for of in names_of(points.machine) for path in of]
-    variables |= {path: _variable(points, values, further, path, "", "") for path, values in zip(paths, states)}
-    ds = _dataset_of_machines(points, variables, "states of motions" if times is not None else "sections of motions")
-    whole: xr.Dataset = ds if times is None else ds.assign_coords(time=("time", times, described("time since the start", "", "")))
+    if isinstance(points, MachineOver):
+        paths = [path for of in names_of(points.machine) for path in of]
+        names, clock, forcing = [(path, path, ("", "")) for path in paths], ("", ""), "phase of the forcing"
+    else:
+        names = [("position", "position", (_LENGTH, "1")), ("velocity", "velocity", (_VELOCITY, "1"))]
+        clock, forcing = (_TIME, "1"), "phase of the force"
+    variables = {} if times is not None else {"time": _variable(points, time, further, "time since the start", *clock)}
+    variables |= {name: _variable(points, of, further, words, *scale) for (name, words, scale), of in zip(names, states)}
+    variables["force_phase"] = _variable(points, phase, further, forcing, "", "rad")
+    title = "states of motions" if times is not None else "sections of motions"
+    if isinstance(points, MachineOver):
+        ds = _dataset_of_machines(points, variables, title)
+    else:
+        ds = _many.dataset(points, f"{title} of an impact oscillator", variables)
+    at = {} if times is None else {"time": ("time", times, described("time since the start", clock[1], clock[0]))}
+    whole: xr.Dataset = ds.assign_coords(at)
     return whole
 
 
@@ -272,31 +279,3 @@ def _dataset_of_machines(points: MachineOver, variables: dict[str, Any], title: 
     coords = {starts.get(name, name): of for name, of in points.coords.items()}
     attributes = {"title": f"{title}: {points.machine.title or 'a machine'}", "source": f"vibroimpact {_core.__version__}"}
     return xr.Dataset(variables, coords, attributes)
-
-
-def _state_variables(points: Over, found: dict[str, Any], further: tuple[str, int]) -> dict[str, Any]:
-    return {
-        "position": _variable(points, found["x"], further, "position", _LENGTH),
-        "velocity": _variable(points, found["v"], further, "velocity", _VELOCITY),
-        "force_phase": _variable(points, found["phase"], further, "phase of the force", "", "rad"),
-    }
-
-
-def _at_times(points: Over, times: NDArray[np.float64], found: dict[str, Any]) -> "xr.Dataset":
-    """The Dataset of the states at given times."""
-    from vibroimpact import _many
-    from vibroimpact._unit_names import described
-
-    variables = _state_variables(points, found, ("time", len(times)))
-    ds = _many.dataset(points, "states of motions of an impact oscillator", variables)
-    whole: xr.Dataset = ds.assign_coords(time=("time", times, described("time since the start", "1", _TIME)))
-    return whole
-
-
-def _states(points: Over, found: dict[str, Any]) -> "xr.Dataset":
-    """The Dataset of the states of a section."""
-    from vibroimpact import _many
-
-    state = ("state", found["width"])
-    time = {"time": _variable(points, found["time"], state, "time since the start", _TIME)}
-    return _many.dataset(points, "sections of motions of an impact oscillator", {**time, **_state_variables(points, found, state)})

@@ -1,23 +1,59 @@
 //! A plan, its result, and everything that is reported of it: the JSON object, the table and the figure.
 
-pub mod machine;
-pub mod oscillator;
+mod machine;
+mod oscillator;
+mod told;
 
+pub use told::Told;
+pub(crate) use told::{BranchesOf, CurveOf};
+
+use crate::figure::branch::Picture;
 use crate::figure::coloured::Coloured;
 use crate::figure::overlay::Overlay;
+use crate::figure::{self, coloured, tracks};
+use crate::json::branch::BranchAnswer;
+use crate::json::curve::CurveAnswer;
+use crate::json::orbit::OrbitAnswer;
 use crate::scene::View;
-use crate::{AnswerError, Asked, Table, Units};
+use crate::{AnswerError, ReportError, Table, Units, table};
 use serde::{Serialize, Serializer};
-use vibroimpact_plot::Figure;
-use vibroimpact_study::{Control, Plan, Results, System, run};
+use vibroimpact::verdict::{CountedMotion, PaperRule, PaperVerdict};
+use vibroimpact_plot::{Figure, plain};
+use vibroimpact_study::diagram::{Diagram, ShowText};
+use vibroimpact_study::machine::MachineSource;
+use vibroimpact_study::{
+    Control, CurvePlan, Cut, CycleOf, Dynamics, Name, Orbit, Plan, PlanError, PlanResults, PointsPlan, RegionPlan,
+    Results, System, SystemPlan, Task, run,
+};
 
 /// A plan and its result, in memory. Its [`Serialize`] form is the JSON object that the command prints with `--json`.
 #[derive(Clone, Debug)]
 pub enum Answer {
     /// Of an oscillator.
-    Oscillator(Box<oscillator::Answer>),
+    Oscillator(Box<AnswerOf<SystemPlan>>),
     /// Of a machine.
-    Machine(Box<machine::Answer>),
+    Machine(Box<AnswerOf<MachineSource>>),
+}
+
+/// The answer for one kind of system.
+#[derive(Clone, Debug)]
+pub struct AnswerOf<D: Dynamics> {
+    /// The plan, [complete](Plan::complete).
+    pub plan: Plan,
+    /// The name under which a machine was asked for.
+    pub name: String,
+    /// The system as it is written in the plan.
+    pub written: D,
+    /// The system; for a plane, that of the first corner.
+    pub system: D::System,
+    /// The start of the task, or of the machine, with a number for each coordinate and velocity.
+    pub start: D::Start,
+    /// The units of all reported values; those of a machine are those of its numbers.
+    pub units: Units,
+    /// The result.
+    pub results: Results<D>,
+    /// The verdict of the rule of the 1971 paper on a settled motion of an oscillator, if requested.
+    pub paper_rule: Option<(PaperRule, PaperVerdict)>,
 }
 
 /// Options for the figure and the table of an answer.
@@ -52,21 +88,29 @@ impl Default for Shown {
 pub fn answer(plan: &Plan, units: Units, control: &Control<'_>) -> Result<Answer, AnswerError> {
     let plan = plan.complete()?;
     let results = run(&plan, control)?;
-    match (&plan.system, results) {
-        (System::Machine(source), Results::Machine(results)) => {
-            let name = source.title.clone().unwrap_or_else(|| "machine".to_owned());
-            let (source, (machine, start)) = ((**source).clone(), source.described()?);
-            Ok(Answer::Machine(Box::new(machine::Answer { name, source, machine, start, results, plan })))
-        }
-        (System::Oscillator(system), results) => {
-            let (system, osc) = (*system, system.oscillator()?);
+    Ok(match &plan.system {
+        System::Oscillator(system) => {
             let units = if plan.units.is_some() { Units::of_plan(&plan) } else { units };
-            let asked = Asked { system, units };
-            Ok(Answer::Oscillator(Box::new(oscillator::Answer { asked, osc, results, plan, paper_rule: None })))
+            Answer::Oscillator(answer_of(*system, (&plan, "oscillator"), results, units)?)
         }
-        // a plan of a machine has no other result
-        (System::Machine(_), _) => Err(vibroimpact_study::PlanError::OfOscillator.into()),
-    }
+        System::Machine(machine) => {
+            let name = machine.title.as_deref().unwrap_or("machine");
+            Answer::Machine(answer_of((**machine).clone(), (&plan, name), results, Units::default())?)
+        }
+    })
+}
+
+fn answer_of<D: Dynamics>(
+    written: D,
+    (plan, name): (&Plan, &str),
+    results: PlanResults,
+    units: Units,
+) -> Result<Box<AnswerOf<D>>, PlanError> {
+    // a plan has no results of another system
+    let results = D::own(results).ok_or(PlanError::OfOscillator)?;
+    let setup = written.setup_of(&plan.task)?;
+    let (system, start, plan, name) = (setup.system, setup.start, plan.clone(), name.to_owned());
+    Ok(Box::new(AnswerOf { plan, name, written, system, start, units, results, paper_rule: None }))
 }
 
 impl Serialize for Answer {
@@ -85,6 +129,14 @@ impl Answer {
         match self {
             Self::Oscillator(answer) => &answer.plan,
             Self::Machine(answer) => &answer.plan,
+        }
+    }
+
+    /// The same, to be changed in what is shown of the results.
+    pub const fn plan_mut(&mut self) -> &mut Plan {
+        match self {
+            Self::Oscillator(answer) => &mut answer.plan,
+            Self::Machine(answer) => &mut answer.plan,
         }
     }
 
@@ -109,7 +161,7 @@ impl Answer {
     pub fn brief(&self) -> String {
         match self {
             Self::Oscillator(answer) => answer.brief(),
-            Self::Machine(_) => self.json(),
+            Self::Machine(answer) => answer.brief(),
         }
     }
 
@@ -136,5 +188,191 @@ impl Answer {
             Self::Oscillator(answer) => answer.table(shown),
             Self::Machine(answer) => answer.table(shown),
         }
+    }
+}
+
+/// The plan of another task than that of the results, which does not occur.
+const OTHER: PlanError = PlanError::NoLabel;
+
+type DiagramOf<D> = Diagram<<D as Dynamics>::Name, <D as Dynamics>::Shown>;
+
+impl<D: Told> AnswerOf<D> {
+    /// As [`Answer::figure`].
+    ///
+    /// # Errors
+    /// [`AnswerError`] for a result that cannot be drawn, or when stopped.
+    pub fn figure(&self, shown: &Shown, control: &Control<'_>) -> Result<Option<Figure>, AnswerError> {
+        let mut figure = self.plain_figure(shown, control)?;
+        if let Some(figure) = &mut figure {
+            shown.overlay.add(figure, &self.plan, control)?;
+        }
+        Ok(figure)
+    }
+
+    /// The figure without what lies over it.
+    fn plain_figure(&self, shown: &Shown, control: &Control<'_>) -> Result<Option<Figure>, AnswerError> {
+        let (units, view) = (&self.units, shown.view.unwrap_or_default());
+        let title = |varied: &[&str]| self.written.title(&self.name, units, varied);
+        let of_axes = |axes: &[vibroimpact_study::Axis<D::Coordinate>]| {
+            title(&axes.iter().map(|axis| axis.vary.text()).collect::<Vec<_>>())
+        };
+        if let Some(colour) = &shown.colour {
+            return Ok(Some(match &self.results {
+                Results::Map(found) => coloured::of_map(found, colour, units, of_axes(&found.axes))?,
+                Results::Basin(found) => coloured::of_basin(found, colour, units, title(&[]))?,
+                _ => return Err(ReportError::NoColours.into()),
+            }));
+        }
+        Ok(Some(match &self.results {
+            Results::Settle(found) => D::settled_figure(self, found, view)?,
+            Results::Simulate(found) => return Ok(D::simulated_figure(self, found, view)?),
+            Results::Lyapunov(found, Some(points)) if matches!(view, View::Waveform | View::Sections) => {
+                D::section_figure(self, found, points)
+            }
+            _ if view != View::Waveform => return Ok(None),
+            Results::Lyapunov(..) => return Ok(None),
+            Results::Orbit(found) => {
+                let [speed, _] = D::speeds(self);
+                figure::orbits::figure(&self.orbits(found), speed, title(&[]))
+            }
+            Results::Basin(found) => figure::basin::figure(found, units, title(&[]))?,
+            Results::Map(found) if found.axes.is_empty() => {
+                let labels = found.points.iter().map(|motions| motions.first().map(|motion| (*motion.label).into()));
+                figure::scattered::figure(&PointsPlan::Listed(found.columns.clone()), labels, units, title(&[]))?
+            }
+            Results::Map(found) => figure::map::figure(found, units, of_axes(&found.axes), shown.overlay.cells())?,
+            Results::Diagram(found) => {
+                let cut = found.plan.cut();
+                let varied: Vec<&str> = cut.names().map(Name::text).collect();
+                figure::diagram::figure(found, units, title(&varied))?
+            }
+            Results::Response(found) => {
+                let Task::Response(task) = &self.plan.task else { return Err(OTHER.into()) };
+                figure::response::figure(&D::response(self, found)?, title(&[task.vary.text()]))
+            }
+            Results::Branch(found) => {
+                let (answer, cut) = (self.branches(found)?, self.cut()?);
+                let quantity = answer.quantity.as_deref();
+                let behind = if shown.diagram { self.behind(quantity, control)? } else { None };
+                let [_, speed] = D::speeds(self);
+                let picture = Picture {
+                    cut: &cut,
+                    units,
+                    shown: if quantity.is_some() { tracks::Shown::Quantity } else { tracks::Shown::Speeds },
+                    ordinate: quantity.map_or(speed, plain),
+                    behind: behind.as_ref(),
+                    inadmissible: shown.inadmissible,
+                };
+                let varied: Vec<&str> = cut.names().map(Name::text).collect();
+                figure::branch::figure(&answer.branches, &picture, title(&varied))?
+            }
+            Results::Curve(found) => {
+                let plan = self.curve_plan()?;
+                let title = title(&[plan.vary.parameter.text(), plan.and.parameter.text()]);
+                figure::curve::figure(&self.curve(found)?, (&plan, units), title)
+            }
+            Results::Region(found) => {
+                let plan = self.region_plan()?;
+                let title = title(&[plan.across.parameter.text(), plan.up.parameter.text()]);
+                figure::region::figure(found, &plan, (plan.neutral(&self.written), units), title)
+            }
+            Results::Attractors(census) => {
+                let share =
+                    |found: &CountedMotion<D::System>| (found.verdict.label().into_owned(), census.share(found));
+                figure::bars::shares(&census.by_share().into_iter().map(share).collect::<Vec<_>>(), title(&[]))
+            }
+            Results::Margins(found) => {
+                let varied: Vec<&str> = found.parameters.iter().map(|of| of.scope.parameter.text()).collect();
+                let title = [title(&varied), figure::label(&found.motion.label())].join(": ");
+                let title = title.trim_start_matches(": ").to_owned();
+                figure::bars::margins(found, (&self.system, units), title)?
+            }
+        }))
+    }
+
+    /// The orbit diagram over the range of a branch, of closings or of a quantity; `None` if there is no machine at one end,
+    /// where no branch can come either.
+    fn behind(&self, quantity: Option<&str>, control: &Control<'_>) -> Result<Option<DiagramOf<D>>, AnswerError> {
+        let Task::Branch(plan) = &self.plan.task else { return Ok(None) };
+        let mut diagram = plan.typed::<D::Name>()?.diagram(&self.written)?;
+        if let Some(path) = quantity {
+            diagram.show = D::Shown::try_from(&ShowText::Word(path.to_owned()))?;
+        }
+        let plan = Plan { task: diagram.into(), ..self.plan.clone() };
+        if plan.check().is_err() {
+            return Ok(None);
+        }
+        let found = D::own(run(&plan, control)?);
+        Ok(if let Some(Results::Diagram(found)) = found { Some(found) } else { None })
+    }
+
+    /// The line of its branches.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a number that the system does not have, and for another task.
+    pub fn cut(&self) -> Result<Cut<D::Name>, PlanError> {
+        let Task::Branch(plan) = &self.plan.task else { return Err(OTHER) };
+        plan.typed::<D::Name>()?.cut(&self.written)
+    }
+
+    /// The plan of its curve.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    pub fn curve_plan(&self) -> Result<CurvePlan<D::Name>, PlanError> {
+        if let Task::Curve(plan) = &self.plan.task { plan.typed() } else { Err(OTHER) }
+    }
+
+    /// The plan of its regions.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    pub fn region_plan(&self) -> Result<RegionPlan<D::Name>, PlanError> {
+        if let Task::Region(plan) = &self.plan.task { plan.typed() } else { Err(OTHER) }
+    }
+
+    /// The answer to `vibro branch`.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    pub fn branches<'a>(&'a self, found: &'a BranchesOf<D>) -> Result<BranchAnswer<'a>, PlanError> {
+        Ok(D::branch_object(self, found, &self.cut()?))
+    }
+
+    /// The answer to `vibro curve`.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    pub fn curve<'a>(&'a self, found: &'a CurveOf<D>) -> Result<CurveAnswer<'a>, PlanError> {
+        Ok(D::curve_object(self, found, &self.curve_plan()?))
+    }
+
+    /// The answer to `vibro orbit`.
+    pub(crate) fn orbits<'a>(&'a self, found: &'a [Orbit<CycleOf<D>>]) -> OrbitAnswer<'a> {
+        OrbitAnswer { orbits: found.iter().map(|orbit| D::orbit(self, orbit)).collect() }
+    }
+
+    /// As [`Answer::table`].
+    ///
+    /// # Errors
+    /// [`AnswerError`] for a result that cannot be tabulated.
+    pub fn table(&self, shown: &Shown) -> Result<Option<Table<'_>>, AnswerError> {
+        let (units, view, machine) = (&self.units, shown.view.unwrap_or_default(), D::machine(self));
+        Ok(Some(match &self.results {
+            Results::Simulate(found) => D::simulated_table(self, found, shown.step)?,
+            Results::Settle(found) => D::settled_table(self, found, view)?,
+            Results::Attractors(found) => D::attractors_table(self, found),
+            Results::Orbit(found) => table::orbits::table(self.orbits(found), machine, units),
+            Results::Basin(found) => D::basin_table(self, found)?,
+            Results::Map(found) => table::map::table(found, &self.system, (*units, machine.is_some()))?,
+            Results::Diagram(found) => table::diagram::table(found, &self.system, *units)?,
+            Results::Lyapunov(_, Some(points)) => D::section_table(self, points),
+            Results::Lyapunov(..) => return Ok(None),
+            Results::Branch(found) => table::branch::table(self.branches(found)?, machine, (&self.cut()?, units)),
+            Results::Curve(found) => table::curve::table(self.curve(found)?, machine, (&self.curve_plan()?, units)),
+            Results::Region(found) => table::region::table(found, &self.region_plan()?, units),
+            Results::Response(found) => table::response::table(D::response(self, found)?),
+            Results::Margins(found) => table::margins::table(found, &self.system, *units),
+        }))
     }
 }

@@ -1,230 +1,180 @@
-//! The answer to a plan of an oscillator.
+//! What is told of the answers of an oscillator.
 
-use crate::answer::Shown;
-use crate::figure::branch::Picture;
-use crate::figure::plane::varied;
-use crate::figure::{self, coloured, title, tracks};
-use crate::json::branch::BranchAnswer;
+use super::AnswerOf;
+use super::told::Told;
+use crate::json::attractors::Area;
+use crate::json::basin::MeasureFields;
+use crate::json::branch::{BranchAnswer, BranchObject};
 use crate::json::curve::CurveAnswer;
-use crate::json::orbit::OrbitAnswer;
+use crate::json::event::StateObject;
+use crate::json::lyapunov::LyapunovAnswer;
+use crate::json::motion::MotionObject;
+use crate::json::orbit::OrbitObject;
+use crate::json::settle::SettleAnswer;
+use crate::json::simulate::Events;
+use crate::json::system::SystemObject;
 use crate::response::ResponseView;
-use crate::scene::{View, Viewed, phase_portrait};
-use crate::{AnswerError, Asked, ReportError, ShownValue as _, Table, table};
-use vibroimpact::Oscillator;
-use vibroimpact::verdict::{CountedMotion, PaperRule, PaperVerdict};
+use crate::scene::{BifurcationDiagram, View, Viewed, phase_portrait, strobes};
+use crate::{AnswerError, Asked, ReportError, ShownValue as _, Table, Units, figure, table};
+use vibroimpact::Start;
+use vibroimpact::chaos::{Exponents, Section};
+use vibroimpact::continuation::SolutionPoint;
+use vibroimpact::motion::Event;
+use vibroimpact::verdict::{Census, Settled, Verdict};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::diagram::Show;
 use vibroimpact_study::{
-    BranchPlan, Branches, Control, CurvePlan, Cut, EventCurve, Name, Parameter, Plan, PlanError, RegionPlan, Results,
-    Task, run,
+    Basin, Branches, CurvePlan, Cut, EventCurve, Name as _, Orbit, Parameter, PlanError, ResponseCurves, Simulated,
+    SystemPlan, Task,
 };
 
-/// A plan of an oscillator and its result.
-#[derive(Clone, Debug)]
-pub struct Answer {
-    /// The plan, [complete](Plan::complete).
-    pub plan: Plan,
+impl AnswerOf<SystemPlan> {
     /// The system, and the units of all reported values.
-    pub asked: Asked,
-    /// The oscillator; for a plane, that of the first corner.
-    pub osc: Oscillator,
-    /// The result.
-    pub results: Results,
-    /// The verdict of the rule of the 1971 paper on a settled motion, if requested.
-    pub paper_rule: Option<(PaperRule, PaperVerdict)>,
+    #[must_use]
+    pub const fn asked(&self) -> Asked {
+        Asked { system: self.written, units: self.units }
+    }
 }
 
-impl Answer {
-    /// The JSON object without what takes longest to compute: the harmonics and the transient of a settled motion.
-    #[must_use]
-    pub fn brief(&self) -> String {
-        // texts and numbers can always be written as JSON
-        let brief = self.brief_document().map(|object| serde_json::to_string(&object));
-        brief.unwrap_or_else(|| serde_json::to_string(self)).unwrap_or_default()
+impl Told for SystemPlan {
+    fn system(of: &AnswerOf<Self>) -> SystemObject<'_> {
+        let parameter = |vary: &str| Parameter::from_name(vary);
+        let varied: Vec<Parameter> = match &of.plan.task {
+            Task::Map(map) => map.axes.iter().filter_map(|axis| parameter(axis.vary.text())).collect(),
+            Task::Region(region) => {
+                [&region.across, &region.up].into_iter().filter_map(|side| parameter(side.parameter.text())).collect()
+            }
+            Task::Response(response) => parameter(response.vary.text()).into_iter().collect(),
+            _ => Vec::new(),
+        };
+        SystemObject::of_oscillator(&of.asked(), &of.system, &varied)
     }
 
-    /// As [`Answer::figure`](super::Answer::figure).
-    ///
-    /// # Errors
-    /// [`AnswerError`] for a result that cannot be drawn, or when stopped.
-    pub fn figure(&self, shown: &Shown, control: &Control<'_>) -> Result<Option<Figure>, AnswerError> {
-        let mut figure = self.plain_figure(shown, control)?;
-        if let Some(figure) = &mut figure {
-            shown.overlay.add(figure, &self.plan, control)?;
+    /// Coordinates of a basin that are on no axis may lie beyond a stop.
+    fn state(of: &AnswerOf<Self>) -> StateObject<'_> {
+        let start = match &of.plan.task {
+            Task::Basin(basin) => {
+                let given = basin.start.unwrap_or_default();
+                Start { x: given.x.unwrap_or(of.start.x), v: given.v, phase: given.phase }
+            }
+            _ => of.start,
+        };
+        StateObject::of_oscillator(&start, &of.units)
+    }
+
+    fn motion<'a>(of: &'a AnswerOf<Self>, verdict: &'a Verdict) -> MotionObject<'a> {
+        MotionObject::of_oscillator(verdict, &of.system, &of.units)
+    }
+
+    fn orbit<'a>(of: &'a AnswerOf<Self>, orbit: &'a Orbit) -> OrbitObject<'a> {
+        OrbitObject::of_oscillator(orbit, &of.system, &of.units)
+    }
+
+    fn events<'a>(of: &'a AnswerOf<Self>, found: &'a Simulated) -> Events<'a> {
+        Events::Oscillator(&of.system, &found.events, Box::new(of.units))
+    }
+
+    fn settled<'a>(of: &'a AnswerOf<Self>, found: &'a Settled, brief: bool) -> SettleAnswer<'a> {
+        if brief {
+            return SettleAnswer::brief(found, &of.system, &of.units);
         }
-        Ok(figure)
+        SettleAnswer::of_oscillator(found, (&of.system, &of.start), of.paper_rule, &of.units)
     }
 
-    /// The figure without what lies over it.
-    fn plain_figure(&self, shown: &Shown, control: &Control<'_>) -> Result<Option<Figure>, AnswerError> {
-        let Self { asked, osc, plan, .. } = self;
-        let default = shown.view.is_none_or(|view| view == View::Waveform);
-        if let Some(colour) = &shown.colour {
-            return Ok(Some(match &self.results {
-                Results::Map(found) => {
-                    let title = figure::title_without(asked, &varied(&found.axes));
-                    coloured::of_map(found, colour, &asked.units, title)?
-                }
-                Results::Basin(found) => coloured::of_basin(found, colour, &asked.units, title(asked))?,
-                _ => return Err(ReportError::NoColours.into()),
-            }));
+    fn exponents_object<'a>(of: &'a AnswerOf<Self>, found: &'a Exponents) -> LyapunovAnswer<'a> {
+        LyapunovAnswer::of_oscillator(found, &of.system, &of.units)
+    }
+
+    fn area(of: &AnswerOf<Self>) -> Option<Area> {
+        Some(Area::natural(&of.system, &of.units))
+    }
+
+    fn measures(found: &Basin) -> Option<MeasureFields> {
+        MeasureFields::of(found)
+    }
+
+    fn branch_object<'a>(of: &'a AnswerOf<Self>, found: &'a Branches, cut: &Cut) -> BranchAnswer<'a> {
+        BranchAnswer::of_oscillator(found, cut, &of.asked())
+    }
+
+    fn branch_shown<'a>(of: &'a BifurcationDiagram<Self>, points: &'a [SolutionPoint], cut: &Cut) -> BranchObject<'a> {
+        let asked = Asked { system: of.written, units: of.units };
+        let mut branch = BranchObject::of_oscillator(points, None, cut, &asked);
+        if of.behind.plan.show == Show::Strobe {
+            for (object, point) in branch.points.iter_mut().zip(points) {
+                object.strobes = strobes(point, cut, &asked);
+            }
         }
-        Ok(Some(match (&plan.task, &self.results) {
-            (_, Results::Settle(start, found)) => {
-                Viewed::new(shown.view.unwrap_or_default(), (osc, *start), found, asked)?.figure()
-            }
-            (_, Results::Simulate(start, found)) if shown.view == Some(View::Phase) => {
-                phase_portrait(asked, osc, *start, (0.0, found.shown_until))
-            }
-            (_, Results::Lyapunov(_, _, Some(points))) if default || shown.view == Some(View::Sections) => {
-                figure::section::figure(points, osc, asked)
-            }
-            _ if !default => return Ok(None),
-            (_, Results::Simulate(start, found)) => {
-                let span = (0.0, found.shown_until);
-                figure::waveform::figure(osc, *start, span, &asked.units, title(asked))
-            }
-            (_, Results::Orbit(found)) => {
-                let ordinate = asked.units.named("speed before the impact", "m/s");
-                figure::orbits::figure(&OrbitAnswer::of_oscillator(found, osc, &asked.units), ordinate, title(asked))
-            }
-            (_, Results::Basin(found)) => figure::basin::figure(found, &asked.units, title(asked))?,
-            (_, Results::Map(found)) => {
-                let title = figure::title_without(asked, &varied(&found.axes));
-                figure::map::figure(found, &asked.units, title, shown.overlay.cells())?
-            }
-            (_, Results::Diagram(found)) => {
-                let numbers: Vec<Parameter> = found.plan.cut().names().copied().collect();
-                figure::diagram::figure(found, &asked.units, figure::title_without(asked, &numbers))?
-            }
-            (Task::Response(task), Results::Response(found)) => {
-                let view = ResponseView::of_oscillator(found, task, &asked.units)?;
-                let vary = Parameter::of(task.vary.text())?;
-                figure::response::figure(&view, figure::title_without(asked, &[vary]))
-            }
-            (Task::Branch(task), Results::Branch(found)) => {
-                let answer = self.branches(found)?;
-                let task: BranchPlan = task.typed()?;
-                let behind = if shown.diagram {
-                    let plan = Plan::new(asked.system, task.diagram(&asked.system)?);
-                    if let Results::Diagram(behind) = run(&plan, control)? { Some(behind) } else { None }
-                } else {
-                    None
-                };
-                let cut = task.cut(&asked.system)?;
-                let picture = Picture {
-                    cut: &cut,
-                    units: &asked.units,
-                    shown: tracks::Shown::Speeds,
-                    ordinate: Show::Velocity.ordinate(&asked.units),
-                    behind: behind.as_ref(),
-                    inadmissible: shown.inadmissible,
-                };
-                let varied: Vec<Parameter> = cut.names().copied().collect();
-                figure::branch::figure(&answer.branches, &picture, figure::title_without(asked, &varied))?
-            }
-            (_, Results::Curve(found)) => {
-                let plan = self.curve_plan()?;
-                let title = figure::title_without(asked, &[plan.vary.parameter, plan.and.parameter]);
-                figure::curve::figure(&self.curve(found)?, (&plan, &asked.units), title)
-            }
-            (Task::Region(task), Results::Region(found)) => {
-                let task: RegionPlan = task.typed()?;
-                let title = figure::title_without(asked, &[task.across.parameter, task.up.parameter]);
-                figure::region::figure(found, &task, (task.neutral(&asked.system), &asked.units), title)
-            }
-            (_, Results::Attractors(census)) => {
-                let share = |found: &CountedMotion| (found.verdict.label().into_owned(), census.share(found));
-                figure::bars::shares(&census.by_share().into_iter().map(share).collect::<Vec<_>>(), title(asked))
-            }
-            (_, Results::Margins(_, found)) => {
-                let varied: Vec<Parameter> = found.parameters.iter().map(|of| of.scope.parameter).collect();
-                let label = figure::label(&found.motion.label());
-                let title = [figure::title_without(asked, &varied), label].join(": ");
-                figure::bars::margins(found, (osc, &asked.units), title.trim_start_matches(": ").to_owned())?
-            }
-            _ => return Ok(None),
-        }))
+        branch
     }
 
-    /// The line of its branches.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a parameter that the system does not have, and for another task.
-    pub fn cut(&self) -> Result<Cut, PlanError> {
-        let Task::Branch(plan) = &self.plan.task else { return Err(PlanError::NoLabel) };
-        plan.typed::<Parameter>()?.cut(&self.asked.system)
+    fn curve_object<'a>(of: &'a AnswerOf<Self>, found: &'a EventCurve, plan: &CurvePlan) -> CurveAnswer<'a> {
+        CurveAnswer::of_oscillator(found, plan, &of.asked())
     }
 
-    /// The plan of its curve.
-    ///
-    /// # Errors
-    /// As [`Self::cut`].
-    pub fn curve_plan(&self) -> Result<CurvePlan, PlanError> {
-        if let Task::Curve(plan) = &self.plan.task { plan.typed() } else { Err(PlanError::NoLabel) }
+    fn response<'a>(of: &'a AnswerOf<Self>, found: &'a ResponseCurves) -> Result<ResponseView<'a>, PlanError> {
+        let Task::Response(plan) = &of.plan.task else { return Err(PlanError::NoLabel) };
+        ResponseView::of_oscillator(found, plan, &of.units)
     }
 
-    /// The answer to `vibro branch`.
-    ///
-    /// # Errors
-    /// As [`Self::cut`].
-    pub fn branches<'a>(&self, found: &'a Branches) -> Result<BranchAnswer<'a>, PlanError> {
-        Ok(BranchAnswer::of_oscillator(found, &self.cut()?, &self.asked))
+    fn title(&self, _: &str, units: &Units, varied: &[&str]) -> String {
+        let varied: Vec<Parameter> = varied.iter().filter_map(|name| Parameter::from_name(name)).collect();
+        figure::title_without(&Asked { system: *self, units: *units }, &varied)
     }
 
-    /// The answer to `vibro curve`.
-    ///
-    /// # Errors
-    /// As [`Self::cut`].
-    pub fn curve<'a>(&self, found: &'a EventCurve) -> Result<CurveAnswer<'a>, PlanError> {
-        Ok(CurveAnswer::of_oscillator(found, &self.curve_plan()?, &self.asked))
+    fn speeds(of: &AnswerOf<Self>) -> [String; 2] {
+        [of.units.named("speed before the impact", "m/s"), Show::Velocity.ordinate(&of.units)]
     }
 
-    /// As [`Answer::table`](super::Answer::table).
-    ///
-    /// # Errors
-    /// [`AnswerError`] for a result that cannot be tabulated.
-    pub fn table(&self, shown: &Shown) -> Result<Option<Table<'_>>, AnswerError> {
-        let Self { asked, osc, plan, .. } = self;
-        let units = &asked.units;
-        Ok(Some(match (&plan.task, &self.results) {
-            (_, Results::Simulate(start, found)) => {
-                let step = shown.step.unwrap_or(osc.period() / 100.0);
-                table::waveform::table(osc, *start, (found.shown_until, step), *units)?
-            }
-            (_, Results::Settle(start, found)) => {
-                let view = Viewed::new(shown.view.unwrap_or_default(), (osc, *start), found, asked)?;
-                view.table()?.kept()
-            }
-            (_, Results::Attractors(found)) => table::attractors::table(found, osc, units),
-            (_, Results::Orbit(found)) => {
-                table::orbits::table(OrbitAnswer::of_oscillator(found, osc, units), None, units)
-            }
-            (_, Results::Basin(found)) => table::basin::table(found, units)?,
-            (_, Results::Map(found)) => table::map::table(found, &asked.system, (*units, false))?,
-            (_, Results::Diagram(found)) => table::diagram::table(found, &asked.system, *units)?,
-            (_, Results::Lyapunov(_, _, Some(points))) => table::section::table(points, osc, *units),
-            (_, Results::Branch(found)) => table::branch::table(self.branches(found)?, None, (&self.cut()?, units)),
-            (_, Results::Curve(found)) => table::curve::table(self.curve(found)?, None, (&self.curve_plan()?, units)),
-            (Task::Region(task), Results::Region(found)) => {
-                table::region::table(found, &task.typed::<Parameter>()?, units)
-            }
-            (Task::Response(task), Results::Response(found)) => {
-                table::response::table(ResponseView::of_oscillator(found, task, units)?)
-            }
-            (_, Results::Margins(_, found)) => table::margins::table(found, osc, *units),
-            _ => return Ok(None),
-        }))
+    fn simulated_figure(of: &AnswerOf<Self>, found: &Simulated, view: View) -> Result<Option<Figure>, ReportError> {
+        let (osc, start, span) = (&of.system, of.start, (0.0, found.shown_until));
+        Ok(match view {
+            View::Phase => Some(phase_portrait(&of.asked(), osc, start, span)),
+            View::Waveform => Some(figure::waveform::figure(osc, start, span, &of.units, figure::title(&of.asked()))),
+            View::Multipliers | View::Sections => None,
+        })
+    }
+
+    fn settled_figure(of: &AnswerOf<Self>, found: &Settled, view: View) -> Result<Figure, AnswerError> {
+        Ok(Viewed::new(view, (&of.system, of.start), found, &of.asked())?.figure())
+    }
+
+    fn section_figure(of: &AnswerOf<Self>, _: &Exponents, points: &Section) -> Figure {
+        figure::section::figure(points, &of.system, &of.asked())
+    }
+
+    fn simulated_table<'a>(
+        of: &'a AnswerOf<Self>,
+        found: &'a Simulated<Event>,
+        step: Option<f64>,
+    ) -> Result<Table<'a>, ReportError> {
+        let step = step.unwrap_or(of.system.period() / 100.0);
+        table::waveform::table(&of.system, of.start, (found.shown_until, step), of.units)
+    }
+
+    fn settled_table<'a>(of: &'a AnswerOf<Self>, found: &'a Settled, view: View) -> Result<Table<'a>, ReportError> {
+        Ok(Viewed::new(view, (&of.system, of.start), found, &of.asked())?.table()?.kept())
+    }
+
+    fn attractors_table<'a>(of: &'a AnswerOf<Self>, found: &'a Census) -> Table<'a> {
+        table::attractors::table(found, &of.system, &of.units)
+    }
+
+    fn basin_table<'a>(of: &'a AnswerOf<Self>, found: &'a Basin) -> Result<Table<'a>, PlanError> {
+        table::basin::table(found, &of.units)
+    }
+
+    fn section_table<'a>(of: &'a AnswerOf<Self>, points: &'a Section) -> Table<'a> {
+        table::section::table(points, &of.system, of.units)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::{Units, answer};
+    use crate::{Answer, AnswerError, ReportError, Shown, Units, answer};
     use core::sync::atomic::AtomicBool;
     use core::sync::atomic::Ordering;
-    use vibroimpact_study::{StartPlan, SystemPlan};
+    use vibroimpact_study::{Control, Plan, PlanError, StartPlan, SystemPlan, Task};
 
     const S: SystemPlan = SystemPlan {
         beta: None,

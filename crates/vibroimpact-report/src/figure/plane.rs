@@ -3,7 +3,7 @@
 use crate::units::shown;
 use crate::{ReportError, Units, Varied};
 use vibroimpact_plot::FigureAxis;
-use vibroimpact_study::{Axis, Coordinate, Parameter, Values};
+use vibroimpact_study::{Axis, Values};
 
 /// Maximum number of points along one axis of a figure.
 const MOST: usize = 16_384;
@@ -22,12 +22,6 @@ pub struct Plane {
     pub x: PlaneAxis,
     /// The ordinate.
     pub y: PlaneAxis,
-}
-
-/// The parameters among the quantities that vary.
-pub(crate) fn varied(axes: &[Axis]) -> Vec<Parameter> {
-    let parameter = |axis: &Axis| if let Coordinate::Parameter(parameter) = axis.vary { Some(parameter) } else { None };
-    axes.iter().filter_map(parameter).collect()
 }
 
 impl Plane {

@@ -1,24 +1,20 @@
 //! The figure of a store, equal to that of the command for the same question.
 
-use crate::answer::machine::machine_title;
-use crate::figure::coloured::{self, Coloured, Value, asked_for, place};
+use crate::answer::Told;
+use crate::figure::coloured::{self, Coloured, Value, place};
 use crate::figure::overlay::Overlay;
-use crate::figure::plane::{Plane, PlaneAxis, Sides, varied};
+use crate::figure::plane::{Plane, PlaneAxis, Sides};
 use crate::figure::point_motion::{PointMotion, group};
-use crate::figure::{basin, diagram, map, quantity_name, scattered, shares, title_without};
-use crate::varied::Varied;
-use crate::{AnswerError, Asked, ReportError, Units};
+use crate::figure::{basin, diagram, map, scattered, shares};
+use crate::varied::{FieldName, Varied};
+use crate::{AnswerError, ReportError, Units};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use vibroimpact::QuantityKind;
 use vibroimpact::math::sort_by_key;
-use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES, plain};
-use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::study::{NOT_COMPUTED, REFUSED, StudyArrays, diagram_of, label_of, machine_diagram_of};
-use vibroimpact_study::{
-    Axis, BasinPlan, Column, Control, Coordinate, Parameter, Plan, PointsPlan, Quantity, System, SystemPlan, Task,
-    typed_axes,
-};
+use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES};
+use vibroimpact_study::study::{NOT_COMPUTED, REFUSED, StudyArrays, label_of};
+use vibroimpact_study::{Axis, BasinPlan, Column, Control, Name, PointsPlan, System, Task, typed_axes};
 
 /// Draws the figure of a study; that of a map or basin in the colours of a quantity, if one is given, and that of a map
 /// with what lies over it.
@@ -32,76 +28,62 @@ pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError> + From<Answe
     overlay: &Overlay,
     control: &Control<'_>,
 ) -> Result<Figure, E> {
-    let whole = store.plan();
-    let system = match &whole.system {
-        System::Oscillator(system) => system,
-        System::Machine(machine) => return of_machine(store, machine, &whole.task, colour),
-    };
-    let mut figure = of_oscillator::<A, E>(store, (system, whole), colour, overlay.cells())?;
-    overlay.add(&mut figure, whole, control)?;
+    let plan = store.plan();
+    let mut figure = match &plan.system {
+        System::Oscillator(system) => of_system::<_, A, E>(store, system, &Units::of_plan(plan), (colour, overlay)),
+        System::Machine(machine) => of_system(store, &**machine, &Units::default(), (colour, overlay)),
+    }?;
+    overlay.add(&mut figure, plan, control)?;
     Ok(figure)
 }
 
-/// Draws the figure of a study of the oscillator without what lies over it.
-fn of_oscillator<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
+/// Draws the figure of a study of a system without what lies over it.
+fn of_system<D: Told, A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
-    (system, whole): (&SystemPlan, &Plan),
-    colour: Option<&Coloured>,
-    cells: (bool, bool),
+    system: &D,
+    units: &Units,
+    (colour, overlay): (Option<&Coloured>, &Overlay),
 ) -> Result<Figure, E> {
-    let asked = Asked { system: *system, units: Units::of_plan(whole) };
-    let axes: Vec<Axis> = typed_axes(whole.task.axes()).map_err(ReportError::from)?;
-    match (&whole.task, colour) {
-        (Task::Map(_) | Task::Basin(_), Some(colour)) => {
-            let fields: Vec<Quantity> =
-                whole.task.fields().iter().filter_map(|name| Quantity::from_name(name)).collect();
-            let quantity = asked_for(&fields, &colour.field)?;
-            let unit = |point: usize| asked.units.at_point(&axes, point).of_quantity(quantity);
-            let points = points::<A, E>(store, Some((quantity.name(), &unit)))?;
-            let names = (quantity_name(quantity, &asked.units), title_without(&asked, &varied(&axes)));
-            Ok(coloured::of_points(&Sides::of(&axes, &asked.units)?, &points, colour, names)?)
+    let task = &store.plan().task;
+    let axes: Vec<Axis<D::Coordinate>> = typed_axes(task.axes()).map_err(ReportError::from)?;
+    let title = |varied: &[&str]| system.title("machine", units, varied);
+    let over_axes = || title(&axes.iter().map(|axis| axis.vary.text()).collect::<Vec<_>>());
+    let sides = || Sides::of(&axes, units);
+    if let Some(colour) = colour {
+        if !matches!(task, Task::Map(_) | Task::Basin(_)) {
+            return Err(ReportError::NoColours.into());
         }
-        (_, Some(_)) => Err(ReportError::NoColours.into()),
-        (Task::Map(_), None) => {
-            let title = title_without(&asked, &varied(&axes));
-            match Sides::of(&axes, &asked.units)? {
-                Sides::Line(side) => Ok(shares::draw(&side, &points::<A, E>(store, None)?, title)),
-                Sides::Plane(plane) => of_map(store, &plane, title, cells),
-            }
-        }
-        (task, None) => of_task(store, task, &axes, &asked),
+        let fields = task.fields().iter().map(|name| D::Quantity::of(name)).collect::<Result<Vec<_>, _>>();
+        let fields = fields.map_err(ReportError::from)?;
+        let field = &fields[place(&fields, &colour.field)?];
+        let unit = |point: usize| field.unit(&units.at_point(&axes, point));
+        let points = points::<A, E>(store, Some((field.text(), &unit)))?;
+        return Ok(coloured::of_points(&sides()?, &points, colour, (field.axis(units), over_axes()))?);
     }
-}
-
-/// Draws the figure of a study that is no map.
-fn of_task<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
-    store: &A,
-    task: &Task,
-    axes: &[Axis],
-    asked: &Asked,
-) -> Result<Figure, E> {
     match task {
-        Task::Basin(plan) if plan.points.is_some() && axes.is_empty() => {
-            let plan: BasinPlan = plan.typed().map_err(ReportError::from)?;
-            let points = plan.points.ok_or(ReportError::Scattered)?;
-            let number = |varied| if let Coordinate::Parameter(number) = varied { Some(number) } else { None };
-            let title = title_without(asked, &points.varied().filter_map(number).collect::<Vec<Parameter>>());
-            of_points(store, &points, &asked.units, title)
+        Task::Map(_) => match sides()? {
+            Sides::Line(side) => Ok(shares::draw(&side, &points::<A, E>(store, None)?, over_axes())),
+            Sides::Plane(plane) => of_map(store, &plane, over_axes(), overlay.cells()),
+        },
+        Task::Basin(BasinPlan { points: Some(points), axes, .. }) if axes.is_empty() => {
+            of_points(store, &points.typed::<D::Coordinate>().map_err(ReportError::from)?, units, title)
         }
-        Task::Basin(_) => of_basin(store, &Sides::of(axes, &asked.units)?, title_without(asked, &varied(axes))),
+        Task::SettleMany(plan) => {
+            of_points(store, &plan.points.typed::<D::Coordinate>().map_err(ReportError::from)?, units, title)
+        }
+        Task::Basin(_) => of_basin(store, &sides()?, over_axes()),
         Task::Lyapunov(_) => {
-            let [axis] = axes else { return Err(ReportError::Exponents.into()) };
-            let unit = |point: usize| asked.units.at_point(axes, point).of_kind(QuantityKind::Rate);
-            let in_si = asked.units.named("Lyapunov exponents", QuantityKind::Rate.unit());
-            let name = if asked.units.si { in_si.as_str() } else { PER_TIME };
-            let side = PlaneAxis::of(axis, &asked.units)?;
-            of_exponents(store, &side, (name, &unit), title_without(asked, &varied(axes)))
+            let [axis] = axes.as_slice() else { return Err(ReportError::Exponents.into()) };
+            let unit = |point: usize| units.at_point(&axes, point).of_kind(QuantityKind::Rate);
+            let name =
+                if units.si { units.named("Lyapunov exponents", QuantityKind::Rate.unit()) } else { PER_TIME.into() };
+            of_exponents(store, &PlaneAxis::of(axis, units)?, (&name, &unit), over_axes())
         }
         Task::Diagram(plan) => {
             let plan = plan.typed().map_err(ReportError::from)?;
-            let found = diagram_of(&plan, &columns::<A, E>(store)?);
-            let varied: Vec<Parameter> = plan.cut().names().copied().collect();
-            Ok(diagram::figure(&found, &asked.units, title_without(asked, &varied))?)
+            let found = D::diagram_of(&plan, &columns::<A, E>(store)?);
+            let cut = plan.cut();
+            Ok(diagram::figure(&found, units, title(&cut.names().map(Name::text).collect::<Vec<_>>()))?)
         }
         _ => Err(ReportError::Scattered.into()),
     }
@@ -110,45 +92,6 @@ fn of_task<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
 /// All arrays of a study.
 fn columns<A: StudyArrays, E: From<A::Error>>(store: &A) -> Result<Vec<Column>, E> {
     Ok((0..store.study().fields().len()).map(|k| store.array(k)).collect::<Result<Vec<_>, _>>()?)
-}
-
-/// Draws the figure of a study of a machine.
-fn of_machine<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
-    store: &A,
-    machine: &MachineSource,
-    task: &Task,
-    colour: Option<&Coloured>,
-) -> Result<Figure, E> {
-    let (title, units) = (machine_title(machine, "machine"), Units::default());
-    let axes: Vec<Axis<String>> = typed_axes(task.axes()).map_err(ReportError::from)?;
-    if let Some(colour) = colour {
-        if !matches!(task, Task::Map(_) | Task::Basin(_)) {
-            return Err(ReportError::NoColours.into());
-        }
-        place(task.fields(), &colour.field)?;
-        let points = points::<A, E>(store, Some((&colour.field, &|_| 1.0)))?;
-        let names = (plain(&colour.field), title);
-        return Ok(coloured::of_points(&Sides::of(&axes, &units)?, &points, colour, names)?);
-    }
-    match task {
-        Task::Map(_) => match Sides::of(&axes, &units)? {
-            Sides::Line(side) => Ok(shares::draw(&side, &points::<A, E>(store, None)?, title)),
-            Sides::Plane(plane) => of_map(store, &plane, title, Overlay::default().cells()),
-        },
-        Task::Basin(_) => of_basin(store, &Sides::of(&axes, &units)?, title),
-        Task::SettleMany(plan) => {
-            of_points(store, &plan.typed::<String>().map_err(ReportError::from)?.points, &units, title)
-        }
-        Task::Diagram(diagram) => {
-            let diagram = diagram.typed().map_err(ReportError::from)?;
-            Ok(diagram::figure(&machine_diagram_of(&diagram, &columns::<A, E>(store)?), &units, title)?)
-        }
-        Task::Lyapunov(_) => {
-            let [axis] = axes.as_slice() else { return Err(ReportError::Exponents.into()) };
-            of_exponents(store, &PlaneAxis::of(axis, &units)?, (PER_TIME, &|_| 1.0), title)
-        }
-        _ => Err(ReportError::Scattered.into()),
-    }
 }
 
 /// The field of a quantity, and the size of its unit at each point.
@@ -205,11 +148,13 @@ fn of_points<A: StudyArrays, E: From<A::Error> + From<ReportError>, V: Varied + 
     store: &A,
     points: &PointsPlan<V>,
     units: &Units,
-    title: String,
+    title: impl Fn(&[&str]) -> String,
 ) -> Result<Figure, E> {
     let Some(label) = store.field_number("label") else { return Err(ReportError::NoLabels.into()) };
     let width = store.study().fields()[label].width();
     let column = store.array(label)?;
+    let varied: Vec<V> = points.varied().collect();
+    let title = title(&varied.iter().map(Name::text).collect::<Vec<_>>());
     let labels = column.whole().chunks(width).map(|codes| label_of(codes[0]).map(Cow::from));
     Ok(scattered::figure(points, labels, units, title)?)
 }

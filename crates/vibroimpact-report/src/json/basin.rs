@@ -6,7 +6,6 @@ use super::motion::{MotionObject, SharedMotion};
 use crate::{Units, Varied};
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::Oscillator;
 use vibroimpact::verdict::{System, Verdict};
 use vibroimpact_study::Basin;
 
@@ -26,7 +25,7 @@ pub(super) struct BasinAnswer<'a> {
 
 /// Measures of the basins in a plane.
 #[derive(JsonSchema, Serialize)]
-struct MeasureFields {
+pub struct MeasureFields {
     /// Side of the boxes of the entropies, in starts.
     box_side: usize,
     entropy: f64,
@@ -56,7 +55,7 @@ struct MergingFields {
 }
 
 impl MeasureFields {
-    fn of(found: &Basin) -> Option<Self> {
+    pub(crate) fn of(found: &Basin) -> Option<Self> {
         let measures = found.measures()?;
         let total = found.cells.len() as u64;
         Some(Self {
@@ -77,16 +76,12 @@ impl MeasureFields {
 }
 
 impl<'a> BasinAnswer<'a> {
-    pub(super) fn of_oscillator(found: &'a Basin, osc: &Oscillator, units: &Units) -> Self {
-        let motion = |verdict| MotionObject::of_oscillator(verdict, osc, units);
-        Self { measures: MeasureFields::of(found), ..Self::new(found, units, motion) }
-    }
-
     /// The motions in order of falling numbers of starts.
     pub(super) fn new<'b, S: System, V: Varied, F>(
         found: &'b Basin<S, V, F>,
         units: &Units,
         motion: impl Fn(&'b Verdict<S>) -> MotionObject<'a>,
+        measures: Option<MeasureFields>,
     ) -> Self {
         let order = found.by_count();
         let mut places = vec![0; order.len()];
@@ -102,7 +97,7 @@ impl<'a> BasinAnswer<'a> {
             axes: AxisObject::all(&found.plan.axes, units),
             refused: found.refused(),
             cells: (0..found.cells.len()).map(|k| found.motion(k).map(|number| places[number])).collect(),
-            measures: None,
+            measures,
         }
     }
 }

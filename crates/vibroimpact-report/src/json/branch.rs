@@ -57,7 +57,7 @@ pub struct ChosenObject {
 }
 
 impl ChosenObject {
-    pub(super) fn new<C>(chosen: &Chosen<C>) -> Option<Self> {
+    pub(crate) fn new<C>(chosen: &Chosen<C>) -> Option<Self> {
         chosen.among.map(|OrbitNumber { number, count }| Self { number, count })
     }
 }
@@ -421,7 +421,7 @@ impl Event<'_> {
 }
 
 /// A point of a branch, whose event is told.
-pub(crate) trait EventPoint: Solution {
+pub trait EventPoint: Solution {
     /// What is told of the event besides its name; `after` is the label beyond it.
     fn fields<'a>(&self, after: Option<String>, system: &'a Self::System) -> EventFields<'a>;
 }
@@ -441,7 +441,7 @@ impl EventPoint for machine::SolutionPoint {
 
 impl<'a> EventFields<'a> {
     /// Those of an event of a machine, from the labels before and after it.
-    pub(super) fn of_machine(
+    pub(crate) fn of_machine(
         event: machine::BranchEvent,
         (before, after): (Label, Option<String>),
         machine: &'a Machine,

@@ -29,9 +29,20 @@ pub trait Stops {
     fn name_of_stop(&self, stop: usize) -> &str;
 }
 
+/// The name of a stop of an oscillator by its number.
+const fn name_of(stop: usize) -> &'static str {
+    side(if stop == stop_number(Side::Upper) { Side::Upper } else { Side::Lower })
+}
+
+impl Stops for Oscillator {
+    fn name_of_stop(&self, stop: usize) -> &str {
+        name_of(stop)
+    }
+}
+
 impl Stops for SystemPlan {
     fn name_of_stop(&self, stop: usize) -> &str {
-        side(if stop == stop_number(Side::Upper) { Side::Upper } else { Side::Lower })
+        name_of(stop)
     }
 }
 
@@ -136,7 +147,7 @@ pub(crate) fn fastest(events: &[EventObject<'_>]) -> f64 {
 
 /// The events of a cycle of an oscillator over one period, beginning with its fastest impact, from which times are counted. Of a
 /// complete chatter the first impacts are listed; those that are summed are not.
-pub(super) fn of_cycle(osc: &Oscillator, cycle: &Cycle, units: &Units) -> Vec<EventObject<'static>> {
+pub(crate) fn of_cycle(osc: &Oscillator, cycle: &Cycle, units: &Units) -> Vec<EventObject<'static>> {
     // a release that does not return to itself makes no cycle
     let segments = cycle_segments(osc, cycle).unwrap_or_default();
     let mut events: Vec<Event> = Vec::new();
@@ -188,7 +199,7 @@ pub(super) fn of_cycle(osc: &Oscillator, cycle: &Cycle, units: &Units) -> Vec<Ev
 
 /// A state from which a motion can be started.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct StateObject<'a> {
+pub struct StateObject<'a> {
     q: Cow<'a, [f64]>,
     qdot: Cow<'a, [f64]>,
     phase: f64,
@@ -199,20 +210,20 @@ pub(super) struct StateObject<'a> {
 }
 
 impl<'a> StateObject<'a> {
-    pub(super) fn of(machine: &Machine, start: &'a events::Start) -> Self {
+    pub(crate) fn of(machine: &Machine, start: &'a events::Start) -> Self {
         let events::Start { q, qdot, phase, .. } = start;
         let (contacts, exact) = (contacts(machine, start), exact(start));
         Self { q: q.into(), qdot: qdot.into(), phase: *phase, contacts, exact }
     }
 
     /// A state of an oscillator, in these units.
-    pub(super) fn of_oscillator(start: &Start, units: &Units) -> StateObject<'static> {
+    pub(crate) fn of_oscillator(start: &Start, units: &Units) -> StateObject<'static> {
         let (q, qdot) = (vec![start.x * units.length()], vec![start.v * units.velocity()]);
         StateObject { q: q.into(), qdot: qdot.into(), phase: start.phase, contacts: Map::new(), exact: Map::new() }
     }
 
     /// The state in the middle of the longest flight of a cycle of an oscillator.
-    pub(super) fn within(osc: &Oscillator, cycle: &Cycle, units: &Units) -> Option<StateObject<'static>> {
+    pub(crate) fn within(osc: &Oscillator, cycle: &Cycle, units: &Units) -> Option<StateObject<'static>> {
         let flights = cycle_segments(osc, cycle)?.into_iter().filter_map(|segment| match segment {
             Segment::Flight { flight, duration } => Some((flight, duration)),
             _ => None,

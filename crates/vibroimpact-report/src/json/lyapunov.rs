@@ -11,7 +11,7 @@ use vibroimpact::machine::Machine;
 
 /// The answer to `vibro lyapunov`.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct LyapunovAnswer<'a> {
+pub struct LyapunovAnswer<'a> {
     motion: MotionObject<'a>,
     /// Per unit of time, the largest first; null if the motion ends in a way for which there are none.
     exponents: Option<Vec<Estimate>>,
@@ -51,7 +51,7 @@ enum GroundsObject {
 }
 
 impl<'a> LyapunovAnswer<'a> {
-    pub(super) fn of_oscillator(found: &'a Exponents, osc: &Oscillator, units: &Units) -> Self {
+    pub(crate) fn of_oscillator(found: &'a Exponents, osc: &Oscillator, units: &Units) -> Self {
         let per_time = |of: Measured| Estimate::from(scaled(of, 1.0 / units.time()));
         let identity = found.identity / units.time();
         Self {
@@ -82,7 +82,7 @@ impl<'a> LyapunovAnswer<'a> {
         }
     }
 
-    pub(super) fn of_machine(machine: &'a Machine, found: &'a Exponents<Machine>) -> Self {
+    pub(crate) fn of_machine(machine: &'a Machine, found: &'a Exponents<Machine>) -> Self {
         let known = !matches!(found.grounds, Grounds::Undecided { .. });
         let period = machine.period().filter(|_| known);
         let all = |factor: f64| found.exponents.iter().map(|of| Estimate::from(scaled(*of, factor))).collect();

@@ -19,7 +19,7 @@ pub mod response;
 mod schema;
 pub mod settle;
 pub mod simulate;
-mod system;
+pub(crate) mod system;
 
 use crate::units::given;
 use crate::{Asked, PROGRAM, Units, Varied};

@@ -20,7 +20,7 @@ use vibroimpact_study::ImpactsByStop;
 
 /// The JSON object of a motion.
 #[derive(Default, JsonSchema, Serialize)]
-pub(crate) struct MotionObject<'a> {
+pub struct MotionObject<'a> {
     kind: &'static str,
     pub(crate) label: String,
     impacts: Option<u32>,
@@ -114,12 +114,12 @@ pub(super) struct ChaosObject {
 }
 
 impl ChaosObject {
-    pub(super) fn of_oscillator(chaos: &Chaos, units: &Units) -> Self {
+    pub(crate) fn of_oscillator(chaos: &Chaos, units: &Units) -> Self {
         let exponents = chaos.spectrum.exponents.map(|exponent| Estimate::per_time(exponent, units));
         Self { events: Some(chaos.impacts), exponents: exponents.into() }
     }
 
-    pub(super) fn of_machine(chaos: &Chaos<Machine>) -> Self {
+    pub(crate) fn of_machine(chaos: &Chaos<Machine>) -> Self {
         Self { events: None, exponents: estimates(&chaos.spectrum) }
     }
 }
@@ -145,7 +145,7 @@ impl HorizonObject {
         Self { kind: "forever", periods: None, why, common_period: None }
     }
 
-    pub(super) fn new(no_impact: &NoImpact) -> Self {
+    pub(crate) fn new(no_impact: &NoImpact) -> Self {
         let forever = Self::forever;
         match no_impact {
             NoImpact::Flight(Horizon::Amplitude) => forever("amplitude"),
@@ -163,7 +163,7 @@ impl HorizonObject {
 
 impl MotionObject<'static> {
     /// The motion of an oscillator, in these units.
-    pub(super) fn of_oscillator(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Self {
+    pub(crate) fn of_oscillator(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Self {
         let stability = verdict.stability(osc);
         let bare = Self {
             kind: "undecided",
@@ -235,7 +235,7 @@ impl MotionObject<'static> {
 
 impl<'a> MotionObject<'a> {
     /// A cycle of a machine.
-    pub(super) fn of_cycle(machine: &'a Machine, cycle: &'a machine::Cycle) -> Self {
+    pub(crate) fn of_cycle(machine: &'a Machine, cycle: &'a machine::Cycle) -> Self {
         let counts = machine.stops().iter().zip(&cycle.counts);
         let sticks = cycle.events.iter().filter(|event| matches!(event.kind.name(), "stick" | "hold")).count();
         Self {
@@ -261,7 +261,7 @@ impl<'a> MotionObject<'a> {
     }
 
     /// The motion of a machine.
-    pub(super) fn of_machine(machine: &'a Machine, verdict: &'a Verdict<Machine>) -> Self {
+    pub(crate) fn of_machine(machine: &'a Machine, verdict: &'a Verdict<Machine>) -> Self {
         if let Verdict::Periodic(cycle) = verdict {
             return Self::of_cycle(machine, cycle);
         }

@@ -7,7 +7,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::{EarlierContact, Orbit, machine::Cycle};
+use vibroimpact::orbit::{EarlierContact, machine::Cycle};
+use vibroimpact_study::Orbit;
 
 /// The answer to `vibro orbit`.
 #[derive(JsonSchema, Serialize)]
@@ -17,7 +18,7 @@ pub(crate) struct OrbitAnswer<'a> {
 
 /// One orbit.
 #[derive(JsonSchema, Serialize)]
-pub(crate) struct OrbitObject<'a> {
+pub struct OrbitObject<'a> {
     #[serde(flatten)]
     pub(crate) motion: MotionObject<'a>,
     pub(crate) admissible: bool,
@@ -33,33 +34,22 @@ struct ContactObject {
     time: f64,
 }
 
-impl<'a> OrbitAnswer<'a> {
-    pub(crate) fn of_oscillator(found: &[Orbit], osc: &Oscillator, units: &Units) -> Self {
-        Self { orbits: found.iter().map(|orbit| OrbitObject::new(orbit, osc, units)).collect() }
-    }
-
-    pub(crate) fn of_machine(machine: &'a Machine, found: &'a [Cycle]) -> Self {
-        let orbit = |cycle| OrbitObject {
-            motion: MotionObject::of_cycle(machine, cycle),
-            // others are not found
-            admissible: true,
-            earlier_contact: None,
-        };
-        Self { orbits: found.iter().map(orbit).collect() }
-    }
-}
-
-impl OrbitObject<'_> {
-    fn new(orbit: &Orbit, osc: &Oscillator, units: &Units) -> Self {
+impl<'a> OrbitObject<'a> {
+    pub(crate) fn of_oscillator(orbit: &Orbit, osc: &Oscillator, units: &Units) -> Self {
         let earlier = |contact: EarlierContact| ContactObject {
             after_impact: (!orbit.cycle.points.is_empty()).then_some(contact.flight + 1),
             stop: side(contact.side),
             time: contact.time * units.time(),
         };
         Self {
-            admissible: orbit.physical,
+            admissible: orbit.admissible,
             earlier_contact: orbit.earlier.map(earlier),
             motion: of_oscillator_cycle(&orbit.cycle, osc, units),
         }
+    }
+
+    /// An orbit of a machine, of which only admissible ones are found.
+    pub(crate) fn of_machine(machine: &'a Machine, cycle: &'a Cycle) -> Self {
+        Self { motion: MotionObject::of_cycle(machine, cycle), admissible: true, earlier_contact: None }
     }
 }

@@ -13,7 +13,7 @@ use vibroimpact::{Oscillator, Start};
 
 /// The answer to `vibro settle`.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct SettleAnswer<'a> {
+pub struct SettleAnswer<'a> {
     motion: MotionObject<'a>,
     /// Of an oscillator: impacts.
     events_followed: u64,
@@ -86,7 +86,7 @@ struct PaperAnswer {
 }
 
 impl<'a> SettleAnswer<'a> {
-    pub(super) fn of_oscillator(
+    pub(crate) fn of_oscillator(
         settled: &'a Settled,
         (osc, start): (&Oscillator, &Start),
         paper: Option<(PaperRule, PaperVerdict)>,
@@ -101,7 +101,7 @@ impl<'a> SettleAnswer<'a> {
     }
 
     /// Without what takes ten times as long as the motion itself: its harmonics and its transient.
-    pub(super) fn brief(settled: &'a Settled, osc: &Oscillator, units: &Units) -> Self {
+    pub(crate) fn brief(settled: &'a Settled, osc: &Oscillator, units: &Units) -> Self {
         Self {
             motion: MotionObject::of_oscillator(&settled.verdict, osc, units),
             events_followed: settled.impacts,
@@ -115,7 +115,7 @@ impl<'a> SettleAnswer<'a> {
 }
 
 impl<'a> SettleAnswer<'a> {
-    pub(super) fn of_machine(machine: &'a Machine, settled: &'a Settled<Machine>) -> Self {
+    pub(crate) fn of_machine(machine: &'a Machine, settled: &'a Settled<Machine>) -> Self {
         Self {
             motion: MotionObject::of_machine(machine, &settled.verdict),
             events_followed: settled.impacts,

@@ -22,7 +22,8 @@ pub(super) struct SimulateAnswer<'a> {
 }
 
 /// Events, which are converted while they are written.
-enum Events<'a> {
+pub enum Events<'a> {
+    /// Of an oscillator, in these units.
     Oscillator(&'a Oscillator, &'a [Event], Box<Units>),
     /// So many of the events of a machine from a start, which were followed for so many forcing periods.
     Machine((&'a Machine, &'a events::Start), Option<f64>, usize),
@@ -38,19 +39,9 @@ struct EndObject {
 }
 
 impl<'a> SimulateAnswer<'a> {
-    pub(super) fn of_oscillator(osc: &'a Oscillator, found: &'a Simulated, units: &Units) -> Self {
+    pub(super) fn new<E>(events: Events<'a>, found: &Simulated<E>, units: &Units) -> Self {
         let horizon = found.horizon.as_ref().map(HorizonObject::new);
-        let end = EndObject { reason: found.reason, time: found.time * units.time(), horizon };
-        Self { events: Events::Oscillator(osc, &found.events, Box::new(*units)), end }
-    }
-
-    pub(super) fn of_machine(
-        problem: (&'a Machine, &'a events::Start),
-        periods: Option<f64>,
-        found: &Simulated<events::Event>,
-    ) -> Self {
-        let end = EndObject { reason: found.reason, time: found.time, horizon: None };
-        Self { events: Events::Machine(problem, periods, found.events.len()), end }
+        Self { events, end: EndObject { reason: found.reason, time: found.time * units.time(), horizon } }
     }
 }
 

@@ -11,7 +11,7 @@ use vibroimpact_study::{FramePlan, Parameter};
 
 /// A system.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct SystemObject<'a> {
+pub struct SystemObject<'a> {
     kind: &'static str,
     name: &'a str,
     coordinates: Vec<&'a str>,
@@ -50,7 +50,7 @@ impl Scales {
 
 impl<'a> SystemObject<'a> {
     /// An oscillator. Numbers that vary have no value: they are left out.
-    pub(super) fn of_oscillator(asked: &Asked, osc: &Oscillator, varied: &[Parameter]) -> Self {
+    pub(crate) fn of_oscillator(asked: &Asked, osc: &Oscillator, varied: &[Parameter]) -> Self {
         let stops = osc.stops().map(|(at, _)| side(at)).collect();
         let numbers = of_body(asked, varied).unwrap_or_else(|| of_parameters(asked, osc, varied));
         let scales = Scales::new(&asked.units);
@@ -58,7 +58,7 @@ impl<'a> SystemObject<'a> {
     }
 
     /// A machine with the name under which it was asked for.
-    pub(super) fn of_machine(name: &'a str, machine: &'a Machine) -> Self {
+    pub(crate) fn of_machine(name: &'a str, machine: &'a Machine) -> Self {
         Self {
             kind: "machine",
             name,

@@ -10,9 +10,8 @@ mod sampled_motion;
 mod sections;
 mod view;
 
-pub use bifurcation::{
-    BifurcationDiagram, BifurcationEvent, BranchSystem, NamedMachine, bifurcation, labels, machine_bifurcation,
-};
+pub(crate) use bifurcation::strobes;
+pub use bifurcation::{BifurcationDiagram, BifurcationEvent, bifurcation, labels, machine_bifurcation};
 pub use multipliers::multipliers;
 pub(crate) use phase::machine_portrait;
 pub use phase::phase_portrait;

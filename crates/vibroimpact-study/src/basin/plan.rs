@@ -1,11 +1,13 @@
 //! The plan of a basin: the starts and the systems.
 
 use crate::axis::{self, Axis, Coordinate};
+use crate::machine::StartAxis;
 use crate::map::{check_impacts, check_refine, options};
-use crate::quantity::Quantity;
+use crate::quantity::{Quantity, check_fields};
 use crate::{PlanError, PointsPlan, Span, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
+use vibroimpact::machine::Machine;
 use vibroimpact::verdict::SettleOptions;
 
 /// The starts of a basin: a grid over coordinates of the start, and perhaps over parameters, or points of both.
@@ -61,6 +63,14 @@ impl<V, Q> BasinPlan<V, Q> {
     }
 }
 
+impl<V, Q> BasinPlan<V, Q> {
+    /// The options with which each start is followed.
+    #[must_use]
+    pub fn options(&self) -> SettleOptions {
+        options(self.impacts)
+    }
+}
+
 impl<V: Clone + Into<Cow<'static, str>>, Q> BasinPlan<V, Q> {
     /// Total number of starts.
     #[must_use]
@@ -112,9 +122,8 @@ impl BasinPlan {
     /// [`PlanError`] names the first invalid value: invalid axes, a start beyond a stop, or a corner that is no valid
     /// system.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
-        let allowed = (|_| true) as fn(Coordinate) -> bool;
         let counts = if self.points.is_some() { (0, MOST_AXES - 1) } else { (1, MOST_AXES) };
-        axis::check("basin", &self.axes, counts, (allowed, "anything"))?;
+        axis::check("basin", &self.axes, counts)?;
         check_refine(self.refine)?;
         check_impacts(self.impacts)?;
         if let Some(points) = &self.points {
@@ -147,17 +156,30 @@ impl BasinPlan {
         Ok(())
     }
 
-    /// The options with which each start is followed.
-    #[must_use]
-    pub fn options(&self) -> SettleOptions {
-        options(self.impacts)
-    }
-
     /// Whether all starts belong to one system, that is, no axis varies a parameter.
     #[must_use]
     pub fn one_system(&self) -> bool {
         let points = self.points.as_ref().is_none_or(PointsPlan::one_system);
         points && self.axes.iter().all(|axis| axis.vary.is_start())
+    }
+}
+
+impl BasinPlan<String, String> {
+    /// Checks everything that can be checked without running the plan.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first invalid value.
+    pub fn check(&self, machine: &Machine) -> Result<(), PlanError> {
+        if self.points.is_some() || self.transient {
+            return Err(PlanError::NoPoints);
+        }
+        axis::check("basin", &self.axes, (1, MOST_AXES))?;
+        for axis in &self.axes {
+            StartAxis::of(machine, &axis.vary)?;
+        }
+        check_fields(machine, &self.fields)?;
+        check_refine(self.refine)?;
+        check_impacts(self.impacts)
     }
 }
 

@@ -6,14 +6,18 @@
 //! many forcing periods later as the transient is long. A sweep is therefore sequential and forms one tile. The two
 //! directions of a sweep, and scattered starts, are computed in parallel.
 
+mod after_transient;
 mod follow;
 mod impacts;
+mod machine;
 mod plan;
 mod settled;
 mod strobes;
 
+pub(crate) use after_transient::{EVENTS_EACH, at_phase_zero};
 pub(crate) use follow::{AfterTransient, SAME, carried_state};
 pub use follow::{DiagramPoint, MotionKind};
+pub(crate) use machine::step as machine_step;
 pub use plan::{DEFAULT_KEEP, DEFAULT_TRANSIENT, DiagramPlan, Show, ShowText, Shown, SweepDirection};
 pub(crate) use plan::{check_order, check_shown};
 pub(crate) use settled::state_on;

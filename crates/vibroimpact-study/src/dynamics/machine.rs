@@ -1,24 +1,30 @@
 //! A machine, as tasks ask for it.
 
 use super::{Dynamics, Setup};
+use crate::diagram::{Diagram, DiagramPlan};
+use crate::in_memory::{DIAGRAM_TILE, diagram, machine_attractors, machine_basin, machine_map, machine_points};
+use crate::lyapunov::{SectionPoints, section};
 use crate::machine::{MachineSource, VariedMachine};
 use crate::map::options;
 use crate::margins::{MotionBox, ParameterMargin};
 use crate::orbit_line::OrbitLine;
 use crate::region::Over;
+use crate::simulate::simulate_machine;
+use crate::study::{SweepFill, machine_diagram_of};
 use crate::{
-    Control, CurvePlan, Cut, DEFAULT_BRANCH_POINTS, FollowedEvent, MarginsPlan, PlanError, RunError, ScaledParameter,
-    Scope, Stopped, Stretch,
+    Column, Control, CurvePlan, Cut, DEFAULT_BRANCH_POINTS, FollowedEvent, LyapunovPlan, MarginsPlan, Orbit, PlanError,
+    PlanResults, Results, RunError, ScaledParameter, Scope, Simulated, Stopped, Stretch, Task,
 };
 use vibroimpact::Label;
+use vibroimpact::chaos::machine_exponents_while;
 use vibroimpact::continuation::machine::{Curve, CurvePoint, Family, Plane, SolutionPoint};
 use vibroimpact::continuation::{BranchOptions, CurveEvent, CurveKind, CurveOptions};
-use vibroimpact::events::Start;
+use vibroimpact::events::{Event, Limits, Motion, Start};
 use vibroimpact::machine::{Machine, MachineError};
 use vibroimpact::orbit::{Stability, find_machine_while, machine::Cycle};
 use vibroimpact::quantities::machine::Quantities;
 use vibroimpact::quantities::{machine_cycle_quantities, machine_quantities, machine_quantity, machine_quantity_paths};
-use vibroimpact::verdict::{Settled, Verdict, scattered_machine_starts, settle_machine_while};
+use vibroimpact::verdict::{Census, SettleOptions, Settled, Verdict, scattered_machine_starts, settle_machine_while};
 
 /// Starts of the search for orbits.
 const STARTS: u64 = 48;
@@ -70,13 +76,98 @@ fn all(found: &Quantities) -> Vec<f64> {
 
 impl Dynamics for MachineSource {
     type Name = String;
+    type Coordinate = String;
     type Quantity = String;
     type Shown = String;
     type System = Machine;
     type Start = Start;
+    type Event = Event;
+    type Sections = SectionPoints;
     type Along = Family;
     type CurvePoint = CurvePoint;
     type Curve = Curve;
+
+    fn setup_of(&self, task: &Task) -> Result<Setup<'_, Self>, PlanError> {
+        if task.start().is_some_and(Option::is_some) {
+            return Err(PlanError::StartTwice);
+        }
+        let (system, start) = self.described()?;
+        Ok(Setup { written: self, system, start })
+    }
+
+    fn check_own(of: &Setup<'_, Self>, task: &Task) -> Result<(), PlanError> {
+        let (source, machine) = (of.written, &of.system);
+        let own_starts = match task {
+            Task::Map(_) | Task::Diagram(_) | Task::Response(_) | Task::SettleMany(_) => true,
+            Task::Lyapunov(plan) => !plan.axes.is_empty(),
+            _ => false,
+        };
+        // points with starts of their own do not need that of the machine
+        if !own_starts {
+            Motion::new(machine, &of.start, Limits::default()).map_err(refused)?;
+        }
+        match task {
+            Task::Simulate { periods: Some(_), .. } if machine.period().is_none() => Err(PlanError::Unforced),
+            Task::Basin(plan) => plan.typed::<String, String>()?.check(machine),
+            Task::Map(plan) => plan.typed::<String, String>()?.check(source),
+            Task::Diagram(plan) => plan.typed::<String, String>()?.check(source),
+            Task::Lyapunov(plan) => plan.typed::<String>()?.check(source, machine),
+            Task::Margins(plan) => plan.typed::<String>()?.check(of),
+            Task::SettleMany(plan) => plan.typed::<String>()?.check(source, machine),
+            _ => Ok(()),
+        }
+    }
+
+    fn own(results: PlanResults) -> Option<Results<Self>> {
+        if let PlanResults::Machine(own) = results { Some(own) } else { None }
+    }
+
+    fn simulate(
+        of: &Setup<'_, Self>,
+        lengths: (Option<u64>, Option<f64>),
+        control: &Control<'_>,
+    ) -> Result<Simulated<Event>, RunError> {
+        simulate_machine(&of.system, &of.start, lengths, control)
+    }
+
+    fn attractors(
+        of: &Setup<'_, Self>,
+        starts: (u64, u64),
+        options: &SettleOptions,
+        control: &Control<'_>,
+    ) -> Result<Census<Machine>, RunError> {
+        machine_attractors(&of.system, starts, options, control)
+    }
+
+    fn exponents(
+        of: &Setup<'_, Self>,
+        plan: &LyapunovPlan<String>,
+        go_on: &dyn Fn() -> bool,
+    ) -> Result<Results<Self>, RunError> {
+        let (machine, start, lengths) = (&of.system, &of.start, plan.events());
+        let found = machine_exponents_while(machine, start, lengths, go_on).map_err(refused)?;
+        let found = found.ok_or(Stopped { done: 0, total: 1 })?;
+        let sections = |points| section(machine, start, (u64::from(lengths.1), points), go_on);
+        Ok(Results::Lyapunov(found, plan.points.map(sections).transpose()?))
+    }
+
+    fn over_grid(of: &Setup<'_, Self>, task: &Task, control: &Control<'_>) -> Result<Results<Self>, RunError> {
+        let (source, problem) = (of.written, (&of.system, &of.start));
+        Ok(match task {
+            Task::Basin(plan) => Results::Basin(machine_basin(problem, &plan.typed()?, control)?),
+            Task::Map(plan) => Results::Map(machine_map(source, &plan.typed()?, control)?),
+            Task::SettleMany(plan) => Results::Map(machine_points(source, problem, &plan.typed()?, control)?),
+            Task::Diagram(plan) => {
+                let task = SweepFill::of_machine(source, &plan.typed()?, Some(DIAGRAM_TILE));
+                Results::Diagram(diagram(&task, control)?)
+            }
+            other => return Err(PlanError::NoMachineStudy(other.verb()).into()),
+        })
+    }
+
+    fn diagram_of(plan: &DiagramPlan<String, String>, columns: &[Column]) -> Diagram<String, String> {
+        machine_diagram_of(plan, columns)
+    }
 
     fn number(&self, name: &String) -> Result<f64, PlanError> {
         Ok(Self::number(self, name)?)
@@ -134,11 +225,11 @@ impl Dynamics for MachineSource {
     }
 
     /// From scattered starts.
-    fn orbits(machine: &Machine, label: Label, control: &Control<'_>) -> Result<Vec<(Cycle, bool)>, RunError> {
+    fn orbits(machine: &Machine, label: Label, go_on: &dyn Fn() -> bool) -> Result<Vec<Orbit<Cycle>>, RunError> {
         let starts = (0..STARTS).map(|k| scattered_machine_starts(machine, 1, k));
-        let found = find_machine_while(machine, label, starts, &|| !control.stopping());
-        let found = found.ok_or(Stopped { done: 0, total: 1 })?;
-        Ok(found.into_iter().map(|cycle| (cycle, true)).collect())
+        let found = find_machine_while(machine, label, starts, go_on).ok_or(Stopped { done: 0, total: 1 })?;
+        // others are not found
+        Ok(found.into_iter().map(|cycle| Orbit { cycle, admissible: true, earlier: None }).collect())
     }
 
     fn no_orbit(label: Label, _: usize) -> PlanError {
@@ -149,9 +240,9 @@ impl Dynamics for MachineSource {
         machine: &Machine,
         start: &Start,
         impacts: Option<u32>,
-        control: &Control<'_>,
+        go_on: &dyn Fn() -> bool,
     ) -> Result<Settled<Machine>, RunError> {
-        let settled = settle_machine_while(machine, start, &options(impacts), &|| !control.stopping());
+        let settled = settle_machine_while(machine, start, &options(impacts), go_on);
         settled.map_err(refused)?.ok_or_else(|| Stopped { done: 0, total: 1 }.into())
     }
 

@@ -8,39 +8,84 @@ pub use machine::{machine_label, quantity_path};
 #[cfg(test)]
 pub(crate) use oscillator::at_rest;
 
-use crate::diagram::Shown;
+use crate::diagram::{Diagram, DiagramPlan, ShowText, Shown};
 use crate::margins::{MotionBox, ParameterMargin};
-use crate::name::Name;
+use crate::name::{Name, Variable};
 use crate::orbit_line::{Along, OrbitLine, Solution};
 use crate::region::Over;
 use crate::{
-    Chosen, Control, CurvePlan, Cut, FollowedEvent, MarginsPlan, OrbitNumber, PlanError, RunError, ScaledParameter,
-    Scope, Stopped, Stretch,
+    Chosen, Column, Control, CurvePlan, Cut, FollowedEvent, LyapunovPlan, MarginsPlan, Orbit, OrbitNumber, PlanError,
+    PlanResults, Results, RunError, ScaledParameter, Scope, Simulated, Stopped, Stretch, Task,
 };
 use core::fmt::Debug;
+use std::borrow::Cow;
 use vibroimpact::Label;
 use vibroimpact::continuation::CurveEvent;
 use vibroimpact::orbit::Stability;
-use vibroimpact::verdict::{Settled, System, Verdict};
+use vibroimpact::verdict::{Census, SettleOptions, Settled, System, Verdict};
 
 /// A system as it is written in a plan. Errors are [`PlanError`]s that name what is wrong, and of searches [`Stopped`].
-pub trait Dynamics: Sized {
+#[allow(clippy::missing_errors_doc, reason = "all have the errors of the trait")]
+pub trait Dynamics: Clone + Debug {
     /// The name of a number.
-    type Name: Name;
+    type Name: Name + Into<Variable>;
+    /// The name of what varies on an axis of a grid: a number, or a part of a start.
+    type Coordinate: Name + Into<Cow<'static, str>>;
     /// The name of a quantity.
     type Quantity: Name;
     /// What an orbit diagram shows of a motion.
-    type Shown: Shown;
+    type Shown: Shown + Into<ShowText> + for<'a> TryFrom<&'a ShowText, Error = PlanError>;
     /// The system.
     type System: System;
     /// Where a motion starts.
-    type Start: Clone;
+    type Start: Clone + Debug;
+    /// An event of a motion.
+    type Event: Clone + Debug;
+    /// The points of an attractor in two sections.
+    type Sections: Clone + Debug;
     /// The systems along a line through numbers.
     type Along: Along<Point: Solution<System = Self::System>>;
     /// A point of a curve of events.
     type CurvePoint: Clone + Debug;
     /// The points of such a curve, one after another.
     type Curve: Iterator<Item = Self::CurvePoint>;
+
+    /// The system with the start of a task.
+    fn setup_of(&self, task: &Task) -> Result<Setup<'_, Self>, PlanError>;
+
+    /// Checks what only this system has: its start, and the plans of tasks over grids, of exponents and of margins.
+    fn check_own(of: &Setup<'_, Self>, task: &Task) -> Result<(), PlanError>;
+
+    /// The results of a plan of such a system; `None` for those of another one.
+    fn own(results: PlanResults) -> Option<Results<Self>>;
+
+    /// The events of a motion, up to a number of them and of forcing periods.
+    fn simulate(
+        of: &Setup<'_, Self>,
+        lengths: (Option<u64>, Option<f64>),
+        control: &Control<'_>,
+    ) -> Result<Simulated<Self::Event>, RunError>;
+
+    /// The distinct motions from so many scattered starts of a sequence.
+    fn attractors(
+        of: &Setup<'_, Self>,
+        starts: (u64, u64),
+        options: &SettleOptions,
+        control: &Control<'_>,
+    ) -> Result<Census<Self::System>, RunError>;
+
+    /// The exponents of a motion, and its sections if points of them are asked for.
+    fn exponents(
+        of: &Setup<'_, Self>,
+        plan: &LyapunovPlan<Self::Coordinate>,
+        go_on: &dyn Fn() -> bool,
+    ) -> Result<Results<Self>, RunError>;
+
+    /// The result of a task over a grid or over points.
+    fn over_grid(of: &Setup<'_, Self>, task: &Task, control: &Control<'_>) -> Result<Results<Self>, RunError>;
+
+    /// The orbit diagram from the columns of its study. Motions of tiles that are not complete are left out.
+    fn diagram_of(plan: &DiagramPlan<Self::Name, Self::Shown>, columns: &[Column]) -> Diagram<Self::Name, Self::Shown>;
 
     /// The value of a number.
     fn number(&self, name: &Self::Name) -> Result<f64, PlanError>;
@@ -69,12 +114,17 @@ pub trait Dynamics: Sized {
     /// The label of an orbit. One that is followed `in_a_plane` has no infinite number of impacts if it is an oscillator's.
     fn label(system: &Self::System, text: Option<&str>, in_a_plane: bool) -> Result<Option<Label>, PlanError>;
 
-    /// The orbits with a label in order of rising speed, and whether each is admissible.
+    /// The orbits with a label in order of rising speed.
     fn orbits(
         system: &Self::System,
         label: Label,
-        control: &Control<'_>,
-    ) -> Result<Vec<(CycleOf<Self>, bool)>, RunError>;
+        go_on: &dyn Fn() -> bool,
+    ) -> Result<Vec<Orbit<CycleOf<Self>>>, RunError>;
+
+    /// Checks that an orbit with a label can be followed.
+    fn check_followed(_: &Self::System, _: Label) -> Result<(), PlanError> {
+        Ok(())
+    }
 
     /// The error where no orbit with a label is admissible, with the number of the others.
     fn no_orbit(label: Label, others: usize) -> PlanError;
@@ -84,7 +134,7 @@ pub trait Dynamics: Sized {
         system: &Self::System,
         start: &Self::Start,
         impacts: Option<u32>,
-        control: &Control<'_>,
+        go_on: &dyn Fn() -> bool,
     ) -> Result<Settled<Self::System>, RunError>;
 
     /// Whether neighbours approach a cycle.
@@ -154,10 +204,10 @@ pub trait Dynamics: Sized {
 }
 
 /// A cycle of a system.
-pub(crate) type CycleOf<D> = <<D as Dynamics>::System as System>::Cycle;
+pub type CycleOf<D> = <<D as Dynamics>::System as System>::Cycle;
 
 /// A point of a branch of a system.
-pub(crate) type PointOf<D> = <<D as Dynamics>::Along as Along>::Point;
+pub type PointOf<D> = <<D as Dynamics>::Along as Along>::Point;
 
 /// A system with the start of a motion.
 #[derive(Debug)]
@@ -195,8 +245,9 @@ impl<D: Dynamics> Setup<'_, D> {
         (text, number): (Option<&str>, Option<u32>),
         control: &Control<'_>,
     ) -> Result<Chosen<CycleOf<D>>, RunError> {
+        let go_on = || !control.stopping();
         let Some(label) = D::label(&self.system, text, false)? else {
-            return match D::settle(&self.system, &self.start, None, control)?.verdict {
+            return match D::settle(&self.system, &self.start, None, &go_on)?.verdict {
                 Verdict::Periodic(cycle) => {
                     let stability = Some(D::stability(&cycle));
                     Ok(Chosen { cycle, among: None, stability })
@@ -204,7 +255,8 @@ impl<D: Dynamics> Setup<'_, D> {
                 other => Err(PlanError::NotPeriodic(other.label().into_owned()).into()),
             };
         };
-        let orbits = D::orbits(&self.system, label, control)?;
+        D::check_followed(&self.system, label)?;
+        let orbits = D::orbits(&self.system, label, &go_on)?;
         let count = orbits.len();
         let index = match number {
             Some(given) => {
@@ -212,14 +264,16 @@ impl<D: Dynamics> Setup<'_, D> {
                 index.ok_or(PlanError::NoSuchOrbit { given, count, label })?
             }
             None => {
-                let stable = |(cycle, _): &(CycleOf<D>, bool)| D::stability(cycle).is_stable();
-                let rank = |orbit: &(CycleOf<D>, bool)| (orbit.1, orbit.1 && stable(orbit));
+                let rank = |orbit: &Orbit<CycleOf<D>>| {
+                    (orbit.admissible, orbit.admissible && D::stability(&orbit.cycle).is_stable())
+                };
                 // of several with the same rank, the last one, which is the fastest
                 let best = (0..count).max_by_key(|index| rank(&orbits[*index]));
-                best.filter(|index| orbits[*index].1).ok_or_else(|| D::no_orbit(label, count))?
+                best.filter(|index| orbits[*index].admissible).ok_or_else(|| D::no_orbit(label, count))?
             }
         };
-        let (cycle, admissible) = orbits.into_iter().nth(index).ok_or_else(|| D::no_orbit(label, 0))?;
+        let found = orbits.into_iter().nth(index).ok_or_else(|| D::no_orbit(label, 0))?;
+        let Orbit { cycle, admissible, .. } = found;
         let stability = admissible.then(|| D::stability(&cycle));
         Ok(Chosen { cycle, among: Some(OrbitNumber::new(index, count)), stability })
     }

@@ -1,22 +1,28 @@
 //! An oscillator, as tasks ask for it.
 
 use super::{Dynamics, Setup};
-use crate::diagram::{Show, carried_state, state_on};
+use crate::diagram::{Diagram, DiagramPlan, Show, carried_state, state_on};
+use crate::in_memory::{DIAGRAM_TILE, attractors, basin, diagram, map};
 use crate::map::options;
 use crate::margins::{MotionBox, ParameterMargin, tried_box};
 use crate::orbit_line::OrbitLine;
 use crate::region::Over;
+use crate::simulate::simulate;
 use crate::stretch::check_plane;
+use crate::study::{SweepFill, diagram_of};
 use crate::{
-    Control, CurvePlan, Cut, FollowedEvent, MarginsPlan, Parameter, PlanError, Quantity, RunError, ScaledParameter,
-    Scope, StartPlan, Stopped, Stretch, SystemPlan,
+    Column, Control, Coordinate, CurvePlan, Cut, FollowedEvent, LyapunovPlan, MarginsPlan, Orbit, Parameter, PlanError,
+    PlanResults, Quantity, Results, RunError, ScaledParameter, Scope, Simulated, StartPlan, Stopped, Stretch,
+    SystemPlan, Task,
 };
+use vibroimpact::chaos::{Section, exponents_while, section_while};
 use vibroimpact::continuation::{
     BranchError, BranchOptions, Curve, CurveEvent, CurveOptions, CurvePoint, SolutionPoint,
 };
+use vibroimpact::motion::Event;
 use vibroimpact::orbit::{Cycle, FindOptions, Stability, earlier_contact, find_while, refine, without_impacts};
 use vibroimpact::quantities::{Quantities, of_cycle, of_verdict};
-use vibroimpact::verdict::{Count, NoImpact, Settled, Verdict, settle_while};
+use vibroimpact::verdict::{Census, Count, NoImpact, SettleOptions, Settled, Verdict, settle_while};
 use vibroimpact::{Label, Oscillator, ParameterPath, Start};
 
 /// Two cycles closer than this are the same one.
@@ -40,13 +46,89 @@ impl SystemPlan {
 
 impl Dynamics for SystemPlan {
     type Name = Parameter;
+    type Coordinate = Coordinate;
     type Quantity = Quantity;
     type Shown = Show;
     type System = Oscillator;
     type Start = Start;
+    type Event = Event;
+    type Sections = Section;
     type Along = (Oscillator, ParameterPath);
     type CurvePoint = CurvePoint;
     type Curve = Curve;
+
+    /// The starts of grids are checked with them.
+    fn setup_of(&self, task: &Task) -> Result<Setup<'_, Self>, PlanError> {
+        self.setup(match task {
+            Task::Basin(_) => StartPlan::default(),
+            Task::Lyapunov(plan) if !plan.axes.is_empty() => StartPlan::default(),
+            task => task.start().copied().flatten().unwrap_or_default(),
+        })
+    }
+
+    fn check_own(of: &Setup<'_, Self>, task: &Task) -> Result<(), PlanError> {
+        match task {
+            Task::Basin(plan) => plan.typed::<Coordinate, Quantity>()?.check(of.written),
+            Task::Map(plan) => plan.typed::<Coordinate, Quantity>()?.check(of.written),
+            Task::Diagram(plan) => plan.typed::<Parameter, Show>()?.check(of.written),
+            Task::Lyapunov(plan) => plan.typed::<Coordinate>()?.check(of.written),
+            Task::Margins(plan) => plan.typed::<Parameter>()?.check(of.written),
+            Task::SettleMany(_) => Err(PlanError::OfMachine),
+            _ => Ok(()),
+        }
+    }
+
+    fn own(results: PlanResults) -> Option<Results<Self>> {
+        if let PlanResults::Oscillator(own) = results { Some(own) } else { None }
+    }
+
+    fn simulate(
+        of: &Setup<'_, Self>,
+        lengths: (Option<u64>, Option<f64>),
+        control: &Control<'_>,
+    ) -> Result<Simulated, RunError> {
+        Ok(simulate(&of.system, of.start, lengths, control)?)
+    }
+
+    fn attractors(
+        of: &Setup<'_, Self>,
+        starts: (u64, u64),
+        options: &SettleOptions,
+        control: &Control<'_>,
+    ) -> Result<Census, RunError> {
+        attractors(of.written, starts, options, control)
+    }
+
+    fn exponents(
+        of: &Setup<'_, Self>,
+        plan: &LyapunovPlan,
+        go_on: &dyn Fn() -> bool,
+    ) -> Result<Results<Self>, RunError> {
+        let (osc, start, stopped) = (&of.system, of.start, Stopped { done: 0, total: 1 });
+        let section = match plan.points {
+            Some(points) => Some(section_while(osc, start, plan.lengths().1, points, go_on).ok_or(stopped)?),
+            None => None,
+        };
+        let found = exponents_while(osc, start, &plan.options(), go_on).ok_or(stopped)?;
+        Ok(Results::Lyapunov(found, section))
+    }
+
+    fn over_grid(of: &Setup<'_, Self>, task: &Task, control: &Control<'_>) -> Result<Results<Self>, RunError> {
+        let system = of.written;
+        Ok(match task {
+            Task::Basin(plan) => Results::Basin(basin(system, &plan.typed()?, control)?),
+            Task::Map(plan) => Results::Map(map(system, &plan.typed()?, control)?),
+            Task::Diagram(plan) => {
+                let task = SweepFill::new(system, &plan.typed()?, Some(DIAGRAM_TILE));
+                Results::Diagram(diagram(&task, control)?)
+            }
+            _ => return Err(PlanError::OfMachine.into()),
+        })
+    }
+
+    fn diagram_of(plan: &DiagramPlan, columns: &[Column]) -> Diagram {
+        diagram_of(plan, columns)
+    }
 
     fn number(&self, name: &Parameter) -> Result<f64, PlanError> {
         self.value(*name)
@@ -98,13 +180,17 @@ impl Dynamics for SystemPlan {
         Ok(Some(label))
     }
 
-    fn orbits(osc: &Oscillator, label: Label, control: &Control<'_>) -> Result<Vec<(Cycle, bool)>, RunError> {
-        if label.impacts == Count::Finite(0) && osc.damping() == 0.0 {
-            return Err(PlanError::from(BranchError::Undamped).into());
-        }
-        let found = find_while(osc, label, FindOptions::default(), &|| !control.stopping());
-        let found = found.ok_or(Stopped { done: 0, total: 1 })?;
-        Ok(found.into_iter().map(|orbit| (orbit.cycle, orbit.physical)).collect())
+    fn orbits(osc: &Oscillator, label: Label, go_on: &dyn Fn() -> bool) -> Result<Vec<Orbit>, RunError> {
+        let found = find_while(osc, label, FindOptions::default(), go_on).ok_or(Stopped { done: 0, total: 1 })?;
+        let orbit =
+            |of: vibroimpact::orbit::Orbit| Orbit { cycle: of.cycle, admissible: of.physical, earlier: of.earlier };
+        Ok(found.into_iter().map(orbit).collect())
+    }
+
+    /// Without damping, motions without impacts are no single cycle.
+    fn check_followed(osc: &Oscillator, label: Label) -> Result<(), PlanError> {
+        let free = label.impacts == Count::Finite(0) && osc.damping() == 0.0;
+        if free { Err(BranchError::Undamped.into()) } else { Ok(()) }
     }
 
     fn no_orbit(label: Label, others: usize) -> PlanError {
@@ -115,9 +201,9 @@ impl Dynamics for SystemPlan {
         osc: &Oscillator,
         start: &Start,
         impacts: Option<u32>,
-        control: &Control<'_>,
+        go_on: &dyn Fn() -> bool,
     ) -> Result<Settled, RunError> {
-        let settled = settle_while(osc, *start, &options(impacts), &|| !control.stopping());
+        let settled = settle_while(osc, *start, &options(impacts), go_on);
         settled.ok_or_else(|| Stopped { done: 0, total: 1 }.into())
     }
 

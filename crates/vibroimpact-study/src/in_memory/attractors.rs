@@ -1,11 +1,19 @@
 //! The motions of one system from many scattered starts, computed by several threads.
 
 use crate::study::{BasinFill, tiles_of};
-use crate::{Control, RunError, SystemPlan};
-use vibroimpact::verdict::{Census, SettleOptions};
+use crate::{Control, RunError, SystemPlan, tiles};
+use vibroimpact::events::Start;
+use vibroimpact::lanes::Width;
+use vibroimpact::machine::Machine;
+use vibroimpact::verdict::{Census, KnownMotions, SettleOptions, scattered_machine_starts, settle_machine_many};
 
 /// Number of starts of a tile.
 const TILE: u32 = 1024;
+/// The same of a machine.
+const MACHINE_TILE: u32 = 4;
+/// The same of machines that are oscillators, whose starts share lanes.
+const WIDE_TILE: u32 = 256;
+
 /// Settles scattered starts of the natural box of the system and counts the distinct motions. The result is that of
 /// [`vibroimpact::verdict::attractors`], but it is computed by several threads.
 pub(crate) fn attractors(
@@ -22,6 +30,30 @@ pub(crate) fn attractors(
         }
     }
     Ok(merged)
+}
+
+/// The number of starts of a tile, of a machine or of machines like it.
+pub(crate) fn tile(machine: &Machine) -> u32 {
+    if machine.reduced().is_some() { WIDE_TILE } else { MACHINE_TILE }
+}
+
+/// The distinct motions from scattered starts, and how many lead to each.
+pub(crate) fn machine_attractors(
+    machine: &Machine,
+    (starts, seed): (u64, u64),
+    options: &SettleOptions,
+    control: &Control<'_>,
+) -> Result<Census<Machine>, RunError> {
+    let known = KnownMotions::default();
+    let parts = tiles(starts, u64::from(tile(machine)), control, |range, tick| {
+        let starts: Vec<Start> = range.map(|k| scattered_machine_starts(machine, seed, k)).collect();
+        settle_machine_many(machine, &starts, &known, options, Width::best(), &|| !control.stopping(), &|| tick())
+    })?;
+    let mut census = Census::default();
+    for found in parts.into_iter().flatten().flat_map(|part| part.motions) {
+        census.add_found(&found);
+    }
+    Ok(census)
 }
 
 #[cfg(test)]

@@ -2,11 +2,13 @@
 
 use crate::basin::{Basin, BasinPlan, start};
 use crate::in_memory::join::{Joined, Part, joined};
-use crate::limits::MOST_CELLS;
-use crate::study::{BasinFill, Cell, tiles_of};
-use crate::{Control, PlanError, RunError, SystemPlan, axis};
+use crate::quantity::values_of;
+use crate::study::{BasinFill, BasinTile, Basins, Cell, Fill, MachineBasin, tiles_of};
+use crate::{Block, Control, PlanError, RunError, Stopped, SystemPlan, axis};
+use vibroimpact::events::Start;
+use vibroimpact::machine::Machine;
 use vibroimpact::quantities::of_verdict_only;
-use vibroimpact::verdict::{CountedMotion, settle};
+use vibroimpact::verdict::{CountedMotion, Undecided, UndecidedCause, Verdict, settle, settle_machine};
 
 /// Approximate number of starts of a tile: large enough that joining takes no noticeable time, small enough to stop
 /// quickly and to use all threads.
@@ -22,7 +24,7 @@ pub(crate) fn basin(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>
 
 fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: u32) -> Result<Basin, RunError> {
     plan.check(system)?;
-    let (osc, total) = (&system.oscillator()?, plan.starts());
+    let osc = &system.oscillator()?;
     if let Some(axis) = plan.axes.iter().find(|axis| !axis.vary.is_start()) {
         let (task, name) = ("basin of one system", axis.vary.name().into());
         return Err(PlanError::WrongAxis { task, name, known: "x, v and phase" }.into());
@@ -31,27 +33,66 @@ fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: 
         let (task, name) = ("basin of one system", "point".into());
         return Err(PlanError::WrongAxis { task, name, known: "x, v and phase" }.into());
     }
-    if total > MOST_CELLS {
-        return Err(axis::too_many("starts", &plan.axes).into());
-    }
-    let all = BasinPlan { refine: None, ..plan.clone() };
+    axis::check_memory("starts", &plan.axes)?;
     let dimensions = i32::try_from(plan.axes.len()).unwrap_or(1);
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // at least 1, at most 4096
     let side = f64::from(tile).powf(1.0 / f64::from(dimensions)).round().max(1.0) as u32;
-    let task = BasinFill::plane(system, &all, Some(side))?;
-    let whole = axis::whole(&plan.axes);
-    let parts = tiles_of(&task, control)?.into_iter().map(|(block, tile)| {
-        // without refinement every start is settled
-        let number = |cell: &Cell<u32>| if let Cell::Computed(number) = cell { Some(*number) } else { None };
-        Part { block, cells: tile.cells.iter().map(number).collect(), met: tile.met }
-    });
+    let task = BasinFill::plane(system, &BasinPlan { refine: None, ..plan.clone() }, Some(side))?;
     let first = |k: usize| settle(osc, start(osc, plan, k as u64), &plan.options()).verdict;
-    let Joined { motions, cells } = joined(&whole, parts, first);
+    let Joined { motions, cells } = all(&task, first, |_, _| {}, control)?;
     let quantities = |motion: &CountedMotion| {
         let found = if plan.fields.is_empty() { None } else { of_verdict_only(osc, &motion.verdict, &plan.fields) };
         found.map_or_else(Vec::new, |found| plan.fields.iter().map(|field| found.get(*field)).collect())
     };
     Ok(Basin::new(plan.clone(), (motions, cells), Vec::new(), quantities)?)
+}
+
+/// The same of a machine.
+///
+/// # Errors
+/// [`RunError`] for an invalid plan, or when stopped.
+pub(crate) fn machine_basin(
+    problem: (&Machine, &Start),
+    plan: &BasinPlan<String, String>,
+    control: &Control<'_>,
+) -> Result<Basin<Machine, String, String>, RunError> {
+    axis::check_memory("starts", &plan.axes)?;
+    let task = BasinFill::of_machine(problem, &BasinPlan { refine: None, ..plan.clone() }, None)?;
+    let whole = task.grid().whole();
+    let mut seen_events = vec![None; whole.points()];
+    // a start that has a motion was settled before
+    let unknown = Verdict::Undecided(Undecided { why: UndecidedCause::Budget, impacts: 0, spectrum: None });
+    let first = |k| {
+        let settled = settle_machine(problem.0, &task.of.start(&whole.index(k)), &plan.options());
+        settled.map_or_else(|_| unknown.clone(), |settled| settled.verdict)
+    };
+    let seen = |block: &Block, tile: &BasinTile<MachineBasin>| {
+        for (k, events) in &tile.notes {
+            seen_events[whole.number(&block.index(*k))] = Some(*events);
+        }
+    };
+    let Joined { motions, cells } = all(&task, first, seen, control)?;
+    let quantities = |motion: &CountedMotion<Machine>| values_of(problem.0, &motion.verdict, &plan.fields);
+    Ok(Basin::new(plan.clone(), (motions, cells), seen_events, quantities)?)
+}
+
+/// The motions of all starts. `first` returns the verdict on a start; `note` is called for each tile.
+fn all<B: Basins>(
+    task: &BasinFill<B>,
+    first: impl Fn(usize) -> Verdict<B::System>,
+    mut note: impl FnMut(&Block, &BasinTile<B>),
+    control: &Control<'_>,
+) -> Result<Joined<B::System>, Stopped>
+where
+    BasinFill<B>: Fill<Tile = BasinTile<B>>,
+{
+    let parts = tiles_of(task, control)?.into_iter().map(|(block, tile)| {
+        note(&block, &tile);
+        // without refinement every start is settled
+        let number = |cell: &Cell<Option<u32>>| if let Cell::Computed(number) = cell { *number } else { None };
+        Part { block, cells: tile.cells.iter().map(number).collect(), met: tile.met }
+    });
+    Ok(joined(&task.grid().whole(), parts, first))
 }
 
 #[cfg(test)]

@@ -1,8 +1,7 @@
 //! A map in memory: its tiles are joined.
 
-use crate::limits::MOST_CELLS;
+use crate::in_memory::attractors::tile;
 use crate::machine::MachineSource;
-use crate::machine_plan::{check_memory, tile};
 use crate::map::{MapPlan, RegionMap, Share};
 use crate::study::{Along, Cell, Fill, MapFill, Mapped, tiles_of};
 use crate::{Control, ListedColumn, ManyPlan, RunError, SystemPlan, axis};
@@ -18,9 +17,7 @@ const TILE: [u32; 4] = [400, 20, 7, 4];
 /// [`RunError`] for an invalid plan, or when stopped.
 pub(crate) fn map(system: &SystemPlan, plan: &MapPlan, control: &Control<'_>) -> Result<RegionMap, RunError> {
     plan.check(system)?;
-    if plan.points() > MOST_CELLS {
-        return Err(axis::too_many("points", &plan.axes).into());
-    }
+    axis::check_memory("points", &plan.axes)?;
     // the starts of a tile share lanes; smaller tiles leave more lanes empty, and larger ones leave threads without work
     let tile = Some(TILE[plan.axes.len().min(TILE.len()) - 1]);
     let task = MapFill::new(system, &MapPlan { refine: None, ..plan.clone() }, tile);
@@ -36,7 +33,7 @@ pub(crate) fn machine_map(
     plan: &MapPlan<String, String>,
     control: &Control<'_>,
 ) -> Result<RegionMap<String, String>, RunError> {
-    check_memory(&plan.axes, plan.starts)?;
+    axis::check_memory("points", &plan.axes)?;
     // one point a tile, because one point may take a thousand times as long as another; oscillators share lanes
     let alone = source.machine().is_ok_and(|machine| machine.reduced().is_none());
     let tile = if alone { Some(1) } else { None };

@@ -4,11 +4,9 @@ mod attractors;
 mod basin;
 mod diagram;
 mod join;
-mod machine_basin;
 mod map;
 
-pub(crate) use attractors::attractors;
-pub(crate) use basin::basin;
+pub(crate) use attractors::{attractors, machine_attractors};
+pub(crate) use basin::{basin, machine_basin};
 pub(crate) use diagram::{DIAGRAM_TILE, diagram};
-pub(crate) use machine_basin::machine_basin;
 pub(crate) use map::{machine_map, machine_points, map};

@@ -17,9 +17,8 @@
 //! | modes from a table of numbers | `modes` |
 //! | some of its numbers varied | `varied` |
 //! | a body in SI units, which is a machine of one coordinate by other names; its numbers | [`Body`](crate::Body), [`BodyNumber`](crate::BodyNumber) |
-//! | where a machine begins | [`StartText`], [`StartNumbers`], `start` |
+//! | where a machine begins | [`StartText`], [`StartNumbers`], `start`, `start_axis`, `starting` |
 //! | named machines of the literature | [`CATALOGUE`], `catalogue` |
-//! | the results of tasks | [`Results`] |
 //! | errors | [`MachineFileError`], [`MachineProblem`] |
 
 mod back;
@@ -37,13 +36,14 @@ mod read;
 mod shapes;
 mod source;
 mod start;
+mod start_axis;
+mod starting;
 mod structure;
 mod text;
 mod varied;
 mod write;
 mod written;
 
-pub use crate::machine_plan::Results;
 pub use body::Body;
 pub use body_number::BodyNumber;
 pub use catalogue::{CATALOGUE, CatalogueEntry};
@@ -55,6 +55,7 @@ pub use read::no_files;
 pub use shapes::{MatrixText, VectorText};
 pub use source::MachineSource;
 pub use start::{ContactText, ContactWord, StartNumbers, StartText, contact_word};
+pub(crate) use start_axis::StartAxis;
 pub use text::{
     ForceText, FrictionText, ImpactsText, LinkText, ModeText, MotionText, OpeningText, StopText, WrittenMachine,
 };

@@ -1,8 +1,9 @@
 //! The plan of a map: the parameters and the number of starts at each point.
 
 use crate::axis::{self, Axis, Coordinate};
-use crate::limits::starts;
-use crate::quantity::Quantity;
+use crate::limits::{MOST_STARTS, starts};
+use crate::machine::MachineSource;
+use crate::quantity::{Quantity, check_fields};
 use crate::{Parameter, PlanError, Span, SystemPlan, limits};
 use serde::{Deserialize, Serialize};
 use vibroimpact::Oscillator;
@@ -103,8 +104,11 @@ impl MapPlan {
     /// # Errors
     /// [`PlanError`] names the first invalid value: invalid axes, or a corner that is no valid system.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
-        let allowed = (|c: Coordinate| !c.is_start()) as fn(Coordinate) -> bool;
-        axis::check("map", &self.axes, (1, MOST_AXES), (allowed, "the parameters of the system"))?;
+        if let Some(axis) = self.axes.iter().find(|axis| axis.vary.is_start()) {
+            let (task, name) = ("map", axis.vary.name().into());
+            return Err(PlanError::WrongAxis { task, name, known: "the parameters of the system" });
+        }
+        axis::check("map", &self.axes, (1, MOST_AXES))?;
         starts(self.starts, MOST_AT_A_POINT)?;
         check_refine(self.refine)?;
         check_impacts(self.impacts)?;
@@ -126,6 +130,22 @@ impl MapPlan {
     /// [`PlanError`] for a point that is no valid system.
     pub fn oscillator(&self, system: &SystemPlan, place: impl Fn(usize) -> usize) -> Result<Oscillator, PlanError> {
         axis::system_at(system, &self.axes, place)?.oscillator()
+    }
+}
+
+impl MapPlan<String, String> {
+    /// Checks everything that can be checked without running the plan.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first invalid value.
+    pub fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
+        axis::check("map", &self.axes, (1, MOST_AXES))?;
+        for axis in &self.axes {
+            source.number(&axis.vary)?;
+        }
+        check_fields(&source.machine()?, &self.fields)?;
+        check_refine(self.refine)?;
+        starts(self.starts, MOST_STARTS).and(check_impacts(self.impacts))
     }
 }
 

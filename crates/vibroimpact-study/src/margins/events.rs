@@ -100,7 +100,7 @@ pub(crate) fn margins<D: Dynamics>(
 ) -> Result<MarginsOf<D>, RunError> {
     let motion = match &plan.label {
         Some(label) => Verdict::Periodic(of.chosen((Some(label), None), control)?.cycle),
-        None => D::settle(&of.system, &of.start, None, control)?.verdict,
+        None => D::settle(&of.system, &of.start, None, &|| !control.stopping())?.verdict,
     };
     let mut all = MotionMargins { motion, parameters: Vec::new(), motion_box: None };
     let Some(cycle) = D::cycle(&of.system, &all.motion) else { return Ok(all) };
@@ -302,7 +302,8 @@ mod tests {
         // the start decides which motion it is
         let other = StartPlan { v: 1.0, ..StartPlan::default() };
         let plan = Plan::new(SYSTEM, Task::Margins(MarginsPlan { start: Some(other), ..MarginsPlan::default() }));
-        assert!(matches!(crate::run(&plan, &Control::default()), Ok(crate::Results::Margins(..))));
+        let found = crate::run(&plan, &Control::default());
+        assert!(matches!(found, Ok(crate::PlanResults::Oscillator(crate::Results::Margins(_)))));
     }
 
     #[test]
@@ -317,7 +318,7 @@ mod tests {
 mod tests_of_machines {
     use super::*;
     use crate::machine::MachineSource;
-    use crate::{BranchPlan, Plan, Results, ScaledParameter, Task, machine, run};
+    use crate::{BranchPlan, Plan, PlanResults, Results, ScaledParameter, Task, run};
 
     /// The nearest events are those of the branches in each number alone.
     #[test]
@@ -328,9 +329,7 @@ mod tests_of_machines {
         let task = Task::from(MarginsPlan { vary: scaled.collect(), ..MarginsPlan::default() });
         let plan = Plan::new(source.clone(), task);
         assert_eq!(Plan::from_text(&plan.to_toml()).unwrap(), plan);
-        let Results::Machine(machine::Results::Margins(found)) = run(&plan, &Control::default()).unwrap() else {
-            panic!()
-        };
+        let PlanResults::Machine(Results::Margins(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
         assert_eq!(found.motion.label(), "1/1");
         let mut events = 0;
         for (margin, path) in found.parameters.iter().zip(vary) {
@@ -346,8 +345,7 @@ mod tests_of_machines {
                     follow: 0,
                 };
                 let plan = Plan::new(source.clone(), Task::from(branch));
-                let Results::Machine(machine::Results::Branch(branch)) = run(&plan, &Control::default()).unwrap()
-                else {
+                let PlanResults::Machine(Results::Branch(branch)) = run(&plan, &Control::default()).unwrap() else {
                     panic!()
                 };
                 let first = branch.followed[0].points.iter().find(|point| point.event.is_some()).unwrap();

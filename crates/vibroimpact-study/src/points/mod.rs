@@ -4,14 +4,17 @@
 
 mod drawn;
 mod listed;
+mod many;
 mod over;
 mod rule;
 
 pub use drawn::{DrawnPoints, PointRange};
 pub use listed::ListedColumn;
+pub use many::ManyPlan;
 pub use rule::PointRule;
 
 use crate::axis::none_twice;
+use crate::name::{Name, Variable};
 use crate::{Coordinate, Parameter, PlanError, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -28,6 +31,16 @@ pub enum PointsPlan<V = Coordinate> {
 
 /// The name of the dimension of points.
 pub(crate) const DIMENSION: &str = "sample";
+
+impl PointsPlan<Variable> {
+    /// The points with the names of a system.
+    ///
+    /// # Errors
+    /// [`PlanError::Name`] for a name that the system does not have.
+    pub fn typed<W: Name>(&self) -> Result<PointsPlan<W>, PlanError> {
+        self.named(&|name: &Variable| W::of(name.text()))
+    }
+}
 
 impl<V> PointsPlan<V> {
     /// The same with other names of what varies.

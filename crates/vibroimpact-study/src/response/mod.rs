@@ -79,7 +79,7 @@ impl<D: Dynamics> Over<'_, '_, D> {
         for value in values {
             let Some(system) = self.system(value) else { continue };
             let start = D::carried(self.of, &self.cut, last, (value, &system))?;
-            let motion = D::settle(&system, &start, self.plan.impacts, self.control)?.verdict;
+            let motion = D::settle(&system, &start, self.plan.impacts, &|| !self.control.stopping())?.verdict;
             last = Some((value, D::reached(&system, &motion, start)));
             let row = ResponseRow {
                 value,
@@ -232,14 +232,12 @@ mod tests {
 mod tests_of_machines {
     use super::*;
     use crate::machine::MachineSource;
-    use crate::{Plan, Results, Span, Task, machine, run};
+    use crate::{Plan, PlanResults, Results, Span, Task, run};
 
     fn response(name: &str, plan: ResponsePlan<String, String>) -> ResponseCurves {
         let plan = Plan::new(MachineSource::open(name).unwrap(), Task::from(plan));
         let plan = Plan::from_text(&plan.to_toml()).unwrap();
-        let Results::Machine(machine::Results::Response(found)) = run(&plan, &Control::default()).unwrap() else {
-            panic!()
-        };
+        let PlanResults::Machine(Results::Response(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
         found
     }
 

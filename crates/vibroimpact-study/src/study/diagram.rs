@@ -113,8 +113,7 @@ const fn sign(stop: usize) -> i8 {
 /// The diagram from the columns of its study, with the motions in the order of [`Diagram`].
 ///
 /// Motions of tiles that are not complete are left out.
-#[must_use]
-pub fn diagram_of(plan: &DiagramPlan, columns: &[Column]) -> Diagram {
+pub(crate) fn diagram_of(plan: &DiagramPlan, columns: &[Column]) -> Diagram {
     let real = |k: usize| columns.get(k).map_or(&[][..], Column::real);
     let (first, second, sides) = (real(1), real(2), columns.get(3).map_or(&[][..], Column::flags));
     let stop = |sign: i8| stop_number(if sign > 0 { Side::Upper } else { Side::Lower });

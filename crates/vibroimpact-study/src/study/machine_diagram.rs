@@ -1,10 +1,9 @@
 //! What the tiles of an orbit diagram of a machine hold.
 
 use super::sweeps::{SweepFill, Swept, kind, stored};
-use crate::diagram::{Diagram, DiagramPoint, DiagramStep, Shown, Sweep};
+use crate::diagram::{Diagram, DiagramPoint, DiagramStep, Shown, Sweep, machine_step};
 use crate::field::{Column, Extra, Field, NumberType};
 use crate::machine::MachineSource;
-use crate::machine_plan::diagram_step;
 use crate::{DiagramPlan, PlanError, Unit};
 use vibroimpact::events::{ContactStart, Start};
 use vibroimpact::regime::ContactState;
@@ -64,7 +63,7 @@ impl Swept for MachineSweep {
     }
 
     fn step(&self, at: (u32, Sweep), before: Option<Start>) -> Result<(DiagramStep, Start), PlanError> {
-        diagram_step(&self.source, &self.plan, at, before)
+        machine_step(&self.source, &self.plan, at, before)
     }
 
     fn numbers(left: &Start) -> Vec<f64> {
@@ -122,8 +121,7 @@ impl Swept for MachineSweep {
 }
 
 /// The diagram of a machine, as [`diagram_of`](super::diagram_of).
-#[must_use]
-pub fn machine_diagram_of(plan: &DiagramPlan<String, String>, columns: &[Column]) -> Diagram<String, String> {
+pub(crate) fn machine_diagram_of(plan: &DiagramPlan<String, String>, columns: &[Column]) -> Diagram<String, String> {
     let real = |k: usize| columns.get(k).map_or(&[][..], Column::real);
     let (values, phases, stops) = (real(1), real(2), columns.get(3).map_or(&[][..], Column::whole));
     stored(plan, columns, |at| {

@@ -3,8 +3,7 @@
 use super::fill::{Along, along, grid_between, on_axis};
 use super::lyapunov::{LyapunovFill, Spectra, Spectrum, TILE};
 use super::map::side;
-use crate::machine::MachineSource;
-use crate::machine_plan::StartAxis;
+use crate::machine::{MachineSource, StartAxis};
 use crate::{Axis, LyapunovPlan, PlanError, Unit};
 use vibroimpact::chaos::{Grounds, machine_exponents_while};
 use vibroimpact::events::Start;
@@ -96,7 +95,7 @@ impl Spectra for Machines {
 #[cfg(test)]
 mod tests {
     use crate::study::{Sheet, Study, in_memory};
-    use crate::{Control, Plan, PlanError, Results, RunError, Task, machine, run};
+    use crate::{Control, Plan, PlanError, PlanResults, Results, RunError, Task, run};
 
     /// A forced mass with a stop at a gap of 0.3; `start` and the axes are written into it.
     fn plan(start: &str, axes: &str) -> Plan {
@@ -137,7 +136,7 @@ mod tests {
                 assert!(alone.check().is_err());
                 continue;
             }
-            let Results::Machine(machine::Results::Lyapunov(direct, None)) = run(&alone, &Control::default()).unwrap()
+            let PlanResults::Machine(Results::Lyapunov(direct, None)) = run(&alone, &Control::default()).unwrap()
             else {
                 panic!()
             };

@@ -10,7 +10,6 @@ mod cycles;
 mod diagram;
 mod fill;
 mod lyapunov;
-mod machine_basin;
 mod machine_diagram;
 mod machine_lyapunov;
 mod machine_map;
@@ -29,11 +28,12 @@ mod tables;
 mod tests;
 
 pub use arrays::StudyArrays;
+pub(crate) use basin::{BasinFill, BasinTile, Basins, MachineBasin};
 pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, REFUSED, STUCK, UNDECIDED, code, label_of, meaning_of};
-pub use diagram::diagram_of;
+pub(crate) use diagram::diagram_of;
 pub(crate) use fill::Fill;
 pub use fill::{Along, BegunTile, Keep};
-pub use machine_diagram::machine_diagram_of;
+pub(crate) use machine_diagram::machine_diagram_of;
 pub(crate) use map::{MapFill, Mapped};
 pub(crate) use memory::tiles_of;
 pub use memory::{Sheet, check_memory, in_memory};
@@ -42,7 +42,6 @@ pub use remarks::{closed_of, has_closed};
 pub use some_points::{PointColumns, points_until};
 pub(crate) use sweeps::{SweepFill, Swept};
 pub use tables::{Cells, EachCount, StudyTable, Tiles};
-pub(crate) use {basin::BasinFill, machine_basin::MachineBasinFill};
 
 use crate::diagram::Show;
 use crate::machine::MachineSource;
@@ -102,7 +101,7 @@ impl Study {
         Ok(match task {
             Task::Basin(basin) => {
                 let (machine, start) = source.problem()?;
-                Box::new(MachineBasinFill::new((&machine, &start), &basin.typed()?, tile)?)
+                Box::new(BasinFill::of_machine((&machine, &start), &basin.typed()?, tile)?)
             }
             Task::Map(map) => Box::new(MapFill::of_machine(source, &map.typed()?, tile)),
             Task::SettleMany(many) => {

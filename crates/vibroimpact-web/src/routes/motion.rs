@@ -38,10 +38,10 @@ pub(super) async fn motion(
     let work = move |control: &Control<'_>| {
         let answer = ask(&plan, Units::default(), control)?;
         let Answer::Oscillator(answer) = &answer else { return Err(Refusal::machine()) };
-        let (osc, units) = (&answer.osc, &answer.asked.units);
+        let (osc, start, units) = (&answer.system, answer.start, &answer.units);
         let motion = match &answer.results {
-            Results::Simulate(start, _) => SampledMotion::new(osc, (*start, 0.0), periods, units),
-            Results::Settle(start, found) => SampledMotion::settled(osc, *start, found, periods, units),
+            Results::Simulate(_) => SampledMotion::new(osc, (start, 0.0), periods, units),
+            Results::Settle(found) => SampledMotion::settled(osc, start, found, periods, units),
             _ => return Err(Refusal::bad("only simulate and settle have one motion\nhint: choose a start")),
         };
         // numbers and names can always be written as JSON

@@ -9,7 +9,7 @@ use vibroimpact_plot::{
     Colour, DOUBLE_COLUMN, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, SERIES, Shape, Stroke, Text,
 };
 use vibroimpact_study::diagram::{self, DiagramPlan};
-use vibroimpact_study::{Control, Parameter, Plan, Results, Span, SystemPlan, Task, run};
+use vibroimpact_study::{Control, Parameter, Plan, PlanResults, Results, Span, SystemPlan, Task, run};
 
 /// The range of the gap shown.
 const SHOWN: (f64, f64) = (-0.45, 5.45);
@@ -91,7 +91,8 @@ fn simulated() -> Result<(Vec<f64>, Vec<f64>), Error> {
         transient: diagram::DEFAULT_TRANSIENT,
         keep: diagram::DEFAULT_KEEP,
     };
-    let Results::Diagram(found) = run(&Plan::new(system, Task::from(plan)), &Control::default())? else {
+    let results = run(&Plan::new(system, Task::from(plan)), &Control::default())?;
+    let PlanResults::Oscillator(Results::Diagram(found)) = results else {
         return Err(Error::Unexpected("a diagram came out as something else"));
     };
     let mut places = Vec::new();

@@ -11,7 +11,6 @@ pub use value::{Coloured, Of, Value};
 use crate::figure::plane::Sides;
 use crate::figure::point_motion::{PointMotion, group, points};
 use crate::{FieldName, ReportError, Units, Varied};
-use vibroimpact::quantities::Quantity;
 use vibroimpact::verdict::{CountedMotion, System};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::{Basin, Name, RegionMap};
@@ -75,14 +74,6 @@ pub fn of_basin<S: System, V: Varied, F: FieldName>(
     let start = |k: usize| found.motion(k).map(|number| motions[number]).into_iter().collect();
     let points: Vec<Vec<PointMotion>> = (0..found.cells.len()).map(start).collect();
     of_points(&Sides::of(&found.plan.axes, units)?, &points, coloured, (fields[field].axis(units), title))
-}
-
-/// The quantity of an oscillator with this name, if a plan asks for it.
-///
-/// # Errors
-/// [`ReportError::NoField`] if it does not.
-pub fn asked_for(fields: &[Quantity], name: &str) -> Result<Quantity, ReportError> {
-    Ok(fields[place(fields, name)?])
 }
 
 /// The place of a field among those of a plan.

@@ -1,12 +1,7 @@
 //! The branches of a machine along a line.
 
-use super::{
-    BifurcationDiagram, BranchSystem, FOLLOW, LOOKS, MOST_LABELS, POINTS, SAMPLES, SEED, STARTS, along, most_first,
-};
-use crate::answer::machine::machine_title;
-use crate::json::branch::BranchObject;
-use crate::json::event::Stops;
-use crate::{AnswerError, BranchQuantity, ReportError, Units};
+use super::{BifurcationDiagram, FOLLOW, LOOKS, MOST_LABELS, POINTS, SAMPLES, SEED, STARTS, along, most_first};
+use crate::{AnswerError, ReportError, Units};
 use vibroimpact::Label;
 use vibroimpact::continuation::{Direction, machine::SolutionPoint};
 use vibroimpact::machine::Machine;
@@ -17,8 +12,8 @@ use vibroimpact::verdict::{
 use vibroimpact_study::diagram::Shown as _;
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
-    BranchPlace, Control, Cut, DiagramPlan, OrbitLine, Plan, Results, RunError, System, Task, machine, machine_label,
-    run,
+    BranchPlace, Control, Cut, DiagramPlan, OrbitLine, Plan, PlanResults, Results, RunError, System, Task,
+    machine_label, run,
 };
 
 /// Starts from which orbits of a given label are searched at each value.
@@ -26,37 +21,6 @@ const ORBIT_STARTS: u64 = 16;
 /// A cycle lies on a branch if its speed and its period are between those of the points before and after it, up to this part
 /// of their size.
 const CLOSE: f64 = 1e-3;
-
-/// The machine of a line.
-#[derive(Clone, Debug)]
-pub struct NamedMachine {
-    name: String,
-    source: MachineSource,
-    machine: Machine,
-}
-
-impl BranchSystem for NamedMachine {
-    type Vary = String;
-    type Show = String;
-    type Point = SolutionPoint;
-
-    fn branch<'a>(&'a self, points: &'a [SolutionPoint], cut: &Cut<String>, show: &String) -> BranchObject<'a> {
-        let quantity = (!show.is_closings()).then(|| BranchQuantity::at_path(show.clone(), &self.source, cut));
-        BranchObject::of_machine(points, None, cut, (&self.machine, quantity.as_ref()))
-    }
-
-    fn stops(&self) -> &impl Stops {
-        &self.machine
-    }
-
-    fn units(&self) -> Units {
-        Units::default()
-    }
-
-    fn title(&self, _: &Cut<String>) -> String {
-        machine_title(&self.source, &self.name)
-    }
-}
 
 /// The branches of some labels over the orbit diagram of a plan, between the ends of its values. The plan also determines
 /// whether the speeds of closings or a quantity are shown. Without labels they are those of the motions on the line with most
@@ -72,7 +36,7 @@ pub fn machine_bifurcation(
     plan: &Plan,
     named: Option<&[String]>,
     control: &Control<'_>,
-) -> Result<BifurcationDiagram<NamedMachine>, AnswerError> {
+) -> Result<BifurcationDiagram<MachineSource>, AnswerError> {
     plan.check()?;
     let (System::Machine(source), Task::Diagram(diagram)) = (&plan.system, &plan.task) else {
         // the command asks for no other task
@@ -97,7 +61,7 @@ pub fn machine_bifurcation(
     };
     let known = |label: Label| labels.contains(&label.to_string());
     seeds.iter_mut().for_each(|(_, cycles)| cycles.retain(|(cycle, _)| known(cycle.label)));
-    let Results::Machine(machine::Results::Diagram(behind)) = run(plan, control)? else {
+    let PlanResults::Machine(Results::Diagram(behind)) = run(plan, control)? else {
         // the task of this plan has no other result
         return Err(ReportError::NoLabels.into());
     };
@@ -122,8 +86,8 @@ pub fn machine_bifurcation(
         }
     }
     branches.retain(|points| points.iter().any(|point| known(point.cycle.label)));
-    let system = NamedMachine { name: name.to_owned(), source: (**source).clone(), machine };
-    Ok(BifurcationDiagram { behind, branches, system })
+    let (name, written, units) = (name.to_owned(), (**source).clone(), Units::default());
+    Ok(BifurcationDiagram { behind, branches, name, written, system: machine, units })
 }
 
 /// Cycles at a value of the number, and for how many starts each stands.
@@ -222,7 +186,7 @@ mod tests {
     }
 
     /// The values of events of a kind and a label.
-    fn events(found: &BifurcationDiagram<NamedMachine>, kind: &str, label: &str) -> Vec<f64> {
+    fn events(found: &BifurcationDiagram<MachineSource>, kind: &str, label: &str) -> Vec<f64> {
         let all = found.events();
         all.iter().filter(|event| event.kind == kind && event.label == label).map(|event| event.value).collect()
     }

@@ -4,20 +4,20 @@
 mod machine;
 mod oscillator;
 
-pub use machine::{NamedMachine, machine_bifurcation};
+pub use machine::machine_bifurcation;
+pub(crate) use oscillator::strobes;
 pub use oscillator::{bifurcation, labels};
 
 use crate::figure::branch::{Picture, figure};
 use crate::figure::tracks::Shown;
 use crate::json::branch::{BranchEventObject, BranchObject, Event};
-use crate::json::event::Stops;
 use crate::table::{Table, bifurcation as bifurcation_table};
-use crate::{AnswerError, ReportError, ShownValue, Units, Varied};
+use crate::{AnswerError, ReportError, ShownValue, Told, Units};
 use std::collections::BTreeMap;
 use vibroimpact::math::{sort_by, sort_by_key};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::diagram::Diagram;
-use vibroimpact_study::{Control, Cut, Span, tiles};
+use vibroimpact_study::{Control, Name, PointOf, Span, tiles};
 
 /// Number of values along the line at which motions are searched, if no labels are given.
 const SAMPLES: u32 = 24;
@@ -47,55 +47,37 @@ pub struct BifurcationEvent {
     pub value: f64,
 }
 
-/// A system whose branches are drawn over an orbit diagram.
-pub trait BranchSystem {
-    /// What varies, what the diagram shows, and a point of a branch.
-    type Vary: Varied;
-    /// See above.
-    type Show: ShownValue;
-    /// See above.
-    type Point;
-
-    /// A branch along a line, with what is shown of each cycle.
-    fn branch<'a>(&'a self, points: &'a [Self::Point], cut: &Cut<Self::Vary>, show: &Self::Show) -> BranchObject<'a>;
-
-    /// The names of its stops.
-    fn stops(&self) -> &impl Stops;
-
-    /// The units of the results.
-    fn units(&self) -> Units;
-
-    /// The title of the figure, in which these numbers vary.
-    fn title(&self, varied: &Cut<Self::Vary>) -> String;
-}
-
 /// The bifurcation diagram along a line.
 #[derive(Clone, Debug)]
-pub struct BifurcationDiagram<B: BranchSystem> {
+pub struct BifurcationDiagram<D: Told> {
     /// The orbit diagram behind the branches.
-    pub behind: Diagram<B::Vary, B::Show>,
+    pub behind: Diagram<D::Name, D::Shown>,
     /// The points of each branch, in order.
-    pub branches: Vec<Vec<B::Point>>,
-    system: B,
+    pub branches: Vec<Vec<PointOf<D>>>,
+    /// The name under which a machine was asked for, and the system as it is written.
+    pub(crate) name: String,
+    pub(crate) written: D,
+    pub(crate) system: D::System,
+    pub(crate) units: Units,
 }
 
-impl<B: BranchSystem> BifurcationDiagram<B> {
+impl<D: Told> BifurcationDiagram<D> {
     /// Its figure: stable orbits are solid and unstable ones dashed.
     ///
     /// # Errors
     /// [`AnswerError`] if a value of what varies overflows in the units of the results.
     pub fn figure(&self) -> Result<Figure, AnswerError> {
-        let (system, show, cut) = (&self.system, &self.behind.plan.show, &self.behind.plan.cut());
-        let units = system.units();
+        let (show, cut, units) = (&self.behind.plan.show, &self.behind.plan.cut(), &self.units);
         let picture = Picture {
             cut,
-            units: &units,
+            units,
             shown: shown(show),
-            ordinate: show.ordinate(&units),
+            ordinate: show.ordinate(units),
             behind: Some(&self.behind),
             inadmissible: false,
         };
-        Ok(figure(&self.objects(), &picture, system.title(cut))?)
+        let varied: Vec<&str> = cut.names().map(Name::text).collect();
+        Ok(figure(&self.objects(), &picture, self.written.title(&self.name, units, &varied))?)
     }
 
     /// Its table: the points from simulation, then those of the branches.
@@ -103,9 +85,8 @@ impl<B: BranchSystem> BifurcationDiagram<B> {
     /// # Errors
     /// As [`Self::figure`].
     pub fn table(&self) -> Result<Table<'static>, AnswerError> {
-        let (behind, units) = (&self.behind, &self.system.units());
-        let shown = shown(&behind.plan.show);
-        let table = bifurcation_table::table((behind, units), self.system.stops(), &self.objects(), shown);
+        let shown = shown(&self.behind.plan.show);
+        let table = bifurcation_table::table((&self.behind, &self.units), &self.system, &self.objects(), shown);
         Ok(table.map_err(ReportError::from)?)
     }
 
@@ -127,8 +108,8 @@ impl<B: BranchSystem> BifurcationDiagram<B> {
     }
 
     fn objects(&self) -> Vec<BranchObject<'_>> {
-        let (cut, show) = (self.behind.plan.cut(), &self.behind.plan.show);
-        self.branches.iter().map(|points| self.system.branch(points, &cut, show)).collect()
+        let cut = self.behind.plan.cut();
+        self.branches.iter().map(|points| D::branch_shown(self, points, &cut)).collect()
     }
 }
 

@@ -1,52 +1,18 @@
 //! The branches of an oscillator along a line.
 
-use super::{
-    BifurcationDiagram, BranchSystem, FOLLOW, LOOKS, MOST_LABELS, NEAR, POINTS, SAMPLES, SEED, STARTS, along,
-    most_first,
-};
-use crate::figure::title_without;
-use crate::json::branch::BranchObject;
-use crate::json::event::Stops;
-use crate::{AnswerError, Asked, ReportError, Units};
+use super::{BifurcationDiagram, FOLLOW, LOOKS, MOST_LABELS, NEAR, POINTS, SAMPLES, SEED, STARTS, along, most_first};
+use crate::{AnswerError, Asked, ReportError};
 use vibroimpact::Label;
 use vibroimpact::continuation::SolutionPoint;
 use vibroimpact::motion::Strobes;
 use vibroimpact::verdict::{Count, CountedMotion, SettleOptions, Verdict, attractors};
-use vibroimpact_study::diagram::Show;
 use vibroimpact_study::{
-    BranchPlan, Control, Cut, DiagramPlan, Parameter, Plan, PlanError, Results, RunError, Span, Stopped, Target, run,
+    BranchPlan, Control, Cut, DiagramPlan, Plan, PlanError, PlanResults, Results, RunError, Span, Stopped, SystemPlan,
+    Target, run,
 };
 
-impl BranchSystem for Asked {
-    type Vary = Parameter;
-    type Show = Show;
-    type Point = SolutionPoint;
-
-    fn branch<'a>(&'a self, points: &'a [SolutionPoint], cut: &Cut, show: &Show) -> BranchObject<'a> {
-        let mut branch = BranchObject::of_oscillator(points, None, cut, self);
-        if *show == Show::Strobe {
-            for (object, point) in branch.points.iter_mut().zip(points) {
-                object.strobes = strobes(point, cut, self);
-            }
-        }
-        branch
-    }
-
-    fn stops(&self) -> &impl Stops {
-        &self.system
-    }
-
-    fn units(&self) -> Units {
-        self.units
-    }
-
-    fn title(&self, varied: &Cut) -> String {
-        title_without(self, &varied.names().copied().collect::<Vec<_>>())
-    }
-}
-
 /// Velocity and position at phase 0 of the force in each of its periods. A solution that is not admissible has none.
-fn strobes(point: &SolutionPoint, cut: &Cut, Asked { system, units }: &Asked) -> Vec<(f64, f64)> {
+pub(crate) fn strobes(point: &SolutionPoint, cut: &Cut, Asked { system, units }: &Asked) -> Vec<(f64, f64)> {
     let osc = cut.oscillator(system, point.value).ok().filter(|_| point.physical);
     let (Some(osc), Some(first)) = (osc, point.cycle.points.first()) else { return Vec::new() };
     let there = units.at(cut.vary, point.value);
@@ -68,7 +34,7 @@ pub fn bifurcation(
     plan: &DiagramPlan,
     named: Option<&[String]>,
     control: &Control<'_>,
-) -> Result<BifurcationDiagram<Asked>, AnswerError> {
+) -> Result<BifurcationDiagram<SystemPlan>, AnswerError> {
     let found;
     let labels = match named {
         Some(labels) => labels,
@@ -77,7 +43,8 @@ pub fn bifurcation(
             &found[..found.len().min(MOST_LABELS)]
         }
     };
-    let Results::Diagram(behind) = run(&Plan::new(asked.system, plan.clone()), control)? else {
+    let PlanResults::Oscillator(Results::Diagram(behind)) = run(&Plan::new(asked.system, plan.clone()), control)?
+    else {
         // the task of this plan has no other result
         return Err(ReportError::NoLabels.into());
     };
@@ -86,7 +53,8 @@ pub fn bifurcation(
         follow(asked, plan, label, &mut branches, control)?;
     }
     branches.retain(|points| points.iter().any(|point| labels.contains(&point.cycle.label.to_string())));
-    Ok(BifurcationDiagram { behind, branches, system: *asked })
+    let (name, system) = ("oscillator".to_owned(), asked.system.oscillator()?);
+    Ok(BifurcationDiagram { behind, branches, name, written: asked.system, system, units: asked.units })
 }
 
 /// Adds the branches of a label, unless an existing branch passes through its orbit.
@@ -115,7 +83,9 @@ fn follow(
             let (vary, to, follow, points) = (cut.vary, end, FOLLOW, POINTS);
             let task = BranchPlan { label, vary, to, back: None, also, orbit: None, follow, points };
             match run(&Plan::new(system, task), control) {
-                Ok(Results::Branch(found)) => branches.extend(found.followed.into_iter().map(|branch| branch.points)),
+                Ok(PlanResults::Oscillator(Results::Branch(found))) => {
+                    branches.extend(found.followed.into_iter().map(|branch| branch.points));
+                }
                 Ok(_) => {}
                 Err(RunError::Stopped(stopped)) => return Err(stopped.into()),
                 // an absent orbit is no error: the label exists only on a part of the line
@@ -170,7 +140,7 @@ mod tests {
     use crate::Units;
     use vibroimpact_plot::{Dash, Figure, Mark};
     use vibroimpact_study::diagram::{DiagramPoint, Show};
-    use vibroimpact_study::{Parameter, Stretch, SystemPlan};
+    use vibroimpact_study::{Parameter, Stretch};
 
     #[test]
     fn f10b_the_branches_of_the_labels_on_a_line() {
@@ -226,7 +196,9 @@ mod tests {
             lines.flat_map(|line| line.ys.clone()).filter(|y| !y.is_nan()).collect()
         };
         let behind = Plan::new(asked.system, strobes.clone());
-        let Results::Diagram(behind) = run(&behind, &control).unwrap() else { panic!("another result") };
+        let PlanResults::Oscillator(Results::Diagram(behind)) = run(&behind, &control).unwrap() else {
+            panic!("another result")
+        };
         let positions: Vec<f64> = behind
             .steps
             .iter()

@@ -1,14 +1,13 @@
 //! The fields and the numbers of a basin as they are stored.
 
-use super::{BasinFill, BasinTile, Surveyed};
+use super::{BasinTile, OscillatorBasin};
 use crate::Unit;
 use crate::field::{Column, Field, NumberType};
 use crate::grid::Block;
 use crate::quantity::{self, Quantities};
-use crate::study::map::{computed, computed_column};
 use crate::study::refine::Cell;
 use crate::study::starts::Starts;
-use crate::study::{NOT_COMPUTED, UNDECIDED, code, cycles, reason};
+use crate::study::{NOT_COMPUTED, reason};
 use vibroimpact::Start;
 use vibroimpact::math::Multiplier;
 use vibroimpact::quantities::of_verdict_only;
@@ -25,15 +24,11 @@ const MULTIPLIERS: [PartOfMultipliers; 4] = [
     ("multiplier_2_im", "imaginary part of the smaller Floquet multiplier", |of| of[1].im),
 ];
 
-impl BasinFill {
-    /// The fields of the store, in the order of [`Self::stored_columns`].
-    pub(super) fn stored_fields(&self) -> Vec<Field> {
-        let label = code::field("motion m/n that the start leads to", Vec::new());
-        let mut fields = vec![label.clone()];
-        if self.one.is_some() {
-            fields.push(cycles::field(label.clone()));
-        }
-        fields.extend(self.asked().iter().map(|quantity| quantity::field(*quantity, Vec::new())));
+impl OscillatorBasin {
+    /// The fields after those of the motions, in the order of [`Self::stored_columns`].
+    pub(super) fn stored_fields(&self, label: &Field) -> Vec<Field> {
+        let quantities = self.asked().iter().map(|quantity| quantity::field(*quantity, Vec::new()));
+        let mut fields: Vec<Field> = quantities.collect();
         let number = |name: &'static str, long_name: &'static str| Field {
             name: name.into(),
             long_name: long_name.into(),
@@ -68,89 +63,70 @@ impl BasinFill {
             fields.push(coordinate("v", "velocity of the start", Unit::VELOCITY));
             fields.push(coordinate("phase", "phase of the force at the start", Unit::ANGLE));
         }
-        if self.refine.is_some() {
-            fields.push(computed());
-        }
         fields
     }
 
-    /// The numbers of a tile.
-    pub(super) fn stored_columns(&self, block: &Block, tile: &BasinTile) -> Vec<Column> {
-        let (leads, _) = self.leads(tile);
-        let cells = &tile.cells;
-        let of = |cell: &Cell<u32>| {
-            cell.result(cells).map_or((UNDECIDED, cycles::NONE), |(number, _)| leads[*number as usize])
-        };
-        let (labels, numbers) = cells.iter().map(of).unzip();
-        let mut columns = vec![Column::I32(labels)];
-        if self.one.is_some() {
-            columns.push(Column::I32(numbers));
-        }
-        columns.extend(self.quantities(tile));
+    /// Their numbers in a tile.
+    pub(super) fn stored_columns<'a>(
+        &'a self,
+        block: &Block,
+        tile: &'a BasinTile<Self>,
+        stored: &dyn Fn(&'a Verdict) -> &'a Verdict,
+    ) -> Vec<Column> {
+        let mut columns = self.quantities(tile, stored);
         columns.extend(self.details(tile));
-        if let (Starts::Scattered { .. }, Some(one)) = (&self.starts, &self.one) {
+        if let (Starts::Scattered { .. }, Some((osc, _))) = (&self.starts, &self.one) {
             let starts: Vec<Start> =
-                (0..block.points()).map(|k| self.start(&one.osc, &self.system, &block.index(k))).collect();
+                (0..block.points()).map(|k| self.start(osc, &self.system, &block.index(k))).collect();
             for coordinate in [|s: &Start| s.x, |s: &Start| s.v, |s: &Start| s.phase] {
                 columns.push(Column::F64(starts.iter().map(coordinate).collect()));
             }
         }
-        if self.refine.is_some() {
-            columns.push(computed_column(cells));
-        }
         columns
     }
 
-    /// The verdict on a motion as it is stored: of a cycle that the survey has found, that of the survey, so that it is the
-    /// same in all tiles.
-    fn stored<'a>(&'a self, one: &'a Surveyed, found: &'a Verdict) -> &'a Verdict {
-        self.cycles(one).iter().find(|known| cycles::same(*known, found)).unwrap_or(found)
-    }
-
     /// The columns of reasons, where the starts are points, of multipliers, and of the lengths of the transients.
-    fn details(&self, tile: &BasinTile) -> Vec<Column> {
+    fn details(&self, tile: &BasinTile<Self>) -> Vec<Column> {
         let mut columns = Vec::new();
         if self.of_points() {
-            columns.push(reason::column(&tile.endings));
+            columns.push(reason::column(&tile.notes.endings));
         }
         if self.of_systems() {
             for part in MULTIPLIERS.map(|(_, _, part)| part) {
                 let known: Vec<f64> =
-                    tile.found.iter().map(|found| found.multipliers.as_ref().map_or(f64::NAN, part)).collect();
-                let number = |cell: &Cell<u32>| cell.result(&tile.cells).map_or(0, |(number, _)| *number as usize);
-                columns.push(Column::F64(tile.cells.iter().map(|cell| known[number(cell)]).collect()));
+                    tile.notes.found.iter().map(|found| found.multipliers.as_ref().map_or(f64::NAN, part)).collect();
+                columns.push(Column::F64(tile.numbers().map(|number| known[number.unwrap_or(0) as usize]).collect()));
             }
         }
         if self.transient() {
-            let own = |(cell, ending): (&Cell<u32>, &Ending)| match cell {
+            let own = |(cell, ending): (&Cell<Option<u32>>, &Ending)| match cell {
                 Cell::Computed(_) => i32::try_from(ending.impacts).unwrap_or(i32::MAX),
                 Cell::Like(_) => -1,
             };
-            columns.push(Column::I32(tile.cells.iter().zip(&tile.endings).map(own).collect()));
+            columns.push(Column::I32(tile.cells.iter().zip(&tile.notes.endings).map(own).collect()));
         }
         columns
     }
 
-    /// The columns of the quantities that the plan asks for. The quantities of a cycle that the survey has found are
-    /// those of the survey, so that they are the same in all tiles. Cells that took the motion of their neighbours have
-    /// its quantities if all starts belong to one system.
-    fn quantities(&self, tile: &BasinTile) -> Vec<Column> {
+    /// The columns of the quantities that the plan asks for. Cells that took the motion of their neighbours have its quantities if
+    /// all starts belong to one system.
+    fn quantities<'a>(&'a self, tile: &'a BasinTile<Self>, stored: &dyn Fn(&'a Verdict) -> &'a Verdict) -> Vec<Column> {
         let asked = self.asked();
         let mut columns = vec![Vec::with_capacity(tile.cells.len()); asked.len()];
         if asked.is_empty() {
             return Vec::new();
         }
         let known: Vec<Option<Quantities>> = match &self.one {
-            Some(one) => {
-                let of = |found: &CountedMotion| of_verdict_only(&one.osc, self.stored(one, &found.verdict), asked);
+            Some((osc, _)) => {
+                let of = |found: &'a CountedMotion| of_verdict_only(osc, stored(&found.verdict), asked);
                 tile.met.motions().iter().map(of).collect()
             }
-            None => tile.found.iter().map(|found| found.quantities).collect(),
+            None => tile.notes.found.iter().map(|found| found.quantities).collect(),
         };
         for cell in &tile.cells {
-            let own = |(_, own): &(&u32, bool)| *own || self.one.is_some();
-            let number = cell.result(&tile.cells).filter(own);
-            let of = number.and_then(|(number, _)| known.get(*number as usize).copied().flatten());
+            let own = |(_, own): &(&Option<u32>, bool)| *own || self.one.is_some();
+            let number = cell.result(&tile.cells).filter(own).and_then(|(number, _)| *number);
+            let of = number.and_then(|number| known.get(number as usize).copied().flatten());
             columns.iter_mut().zip(quantity::values(asked, of)).for_each(|(column, value)| column.push(value));
         }
         columns.into_iter().map(Column::F64).collect()

@@ -1,6 +1,7 @@
 //! The motions of the starts of a tile: starts of one system are settled together.
 
-use super::{BasinFill, Found, Settled, TRAPS, WORTH_A_SURVEY};
+use super::OscillatorBasin;
+use super::oscillator::{Found, Notes, TRAPS, WORTH_A_SURVEY};
 use crate::SystemPlan;
 use crate::grid::Block;
 use crate::study::code;
@@ -9,28 +10,28 @@ use std::collections::HashMap;
 use vibroimpact::lanes::Width;
 use vibroimpact::quantities::of_verdict_only;
 use vibroimpact::verdict::{
-    CountedMotion, Ending, KnownAttractors, Reason, Settlement, Verdict, settle_each, settle_many,
+    Census, CountedMotion, Ending, KnownAttractors, Reason, Settlement, Verdict, settle_each, settle_many,
 };
 use vibroimpact::{Oscillator, Start};
 
 /// A point that was not computed, or has no valid system.
 const NOTHING: Ending = Ending { reason: Reason::SearchLimit, impacts: 0 };
 
-impl BasinFill {
+impl OscillatorBasin {
     /// Settles the given points of a tile. Returns for each point the index of its motion in the tile.
     pub(super) fn settled(
         &self,
         block: &Block,
         wanted: &[usize],
-        into: &mut Settled,
+        (met, into): (&mut Census, &mut Notes),
         tick: &(dyn Fn() -> bool + Sync),
     ) -> Option<Vec<u32>> {
         into.endings.resize(block.points(), NOTHING);
-        if let Some(one) = &self.one {
-            let start = |k: usize| self.start(&one.osc, &self.system, &block.index(wanted[k]));
+        if let Some((osc, survey)) = &self.one {
+            let start = |k: usize| self.start(osc, &self.system, &block.index(wanted[k]));
             let all: Vec<usize> = (0..wanted.len()).collect();
-            let (motions, cells) = self.among(&one.osc, (&all, wanted), start, &one.survey, &mut into.endings, tick)?;
-            let numbers: Vec<u32> = motions.iter().map(|found| whole(into.met.add_found(found))).collect();
+            let (motions, cells) = self.among(osc, (&all, wanted), start, survey, &mut into.endings, tick)?;
+            let numbers: Vec<u32> = motions.iter().map(|found| whole(met.add_found(found))).collect();
             return Some(cells.into_iter().map(|cell| numbers[cell as usize]).collect());
         }
         // starts of one system are settled together

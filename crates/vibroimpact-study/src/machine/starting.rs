@@ -1,7 +1,7 @@
 //! A machine with its start.
 
+use super::{MachineSource, Named, NumberText, StartText, VectorText};
 use crate::PlanError;
-use crate::machine::{MachineSource, Named, NumberText, StartText, VectorText};
 use vibroimpact::events::{Limits, Motion, Start};
 use vibroimpact::machine::Machine;
 

@@ -1,8 +1,9 @@
 //! Which motion each of many machines and starts leads to: points of numbers and starts, listed or drawn from ranges.
 
-use super::grid::{StartAxis, check_fields, none_twice};
-use crate::machine::MachineSource;
+use crate::axis::none_twice;
+use crate::machine::{MachineSource, StartAxis};
 use crate::map::check_impacts;
+use crate::quantity::check_fields;
 use crate::{PlanError, PointsPlan, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -59,7 +60,7 @@ impl ManyPlan<String> {
 mod tests {
     use super::*;
     use crate::{
-        Control, DrawnPoints, ListedColumn, Plan, PointRange, PointRule, RegionMap, Results, Task, machine, run,
+        Control, DrawnPoints, ListedColumn, Plan, PlanResults, PointRange, PointRule, RegionMap, Results, Task, run,
     };
     use vibroimpact::events::Start;
 
@@ -68,7 +69,7 @@ mod tests {
         let task = Task::from(ManyPlan { points, impacts: None, fields });
         let plan = Plan::new(source.clone(), task);
         assert_eq!(Plan::from_text(&plan.to_toml()).unwrap(), plan);
-        let Results::Machine(machine::Results::Map(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
+        let PlanResults::Machine(Results::Map(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
         found
     }
 
@@ -89,7 +90,7 @@ mod tests {
             let start = Start { q: vec![0.0, head], qdot: vec![0.0; 2], ..Start::default() };
             let there = source.with("frequency", frequency).unwrap().starting(&start);
             let alone = Plan::new(there, Task::Settle { start: None, impacts: None });
-            let Results::Machine(machine::Results::Settle(alone)) = run(&alone, &Control::default()).unwrap() else {
+            let PlanResults::Machine(Results::Settle(alone)) = run(&alone, &Control::default()).unwrap() else {
                 panic!()
             };
             assert_eq!(cell[0].label, alone.verdict.label(), "{k}");

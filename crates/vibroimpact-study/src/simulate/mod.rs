@@ -1,6 +1,10 @@
 //! The events of one motion, up to a number of impacts or forcing periods, and the reason why the list ends.
 
+mod machine;
+
 use crate::{Control, PlanError, Stopped, limits};
+pub use machine::events_with_states;
+pub(crate) use machine::{limits as limits_until, simulate as simulate_machine};
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::motion::{End, Event, EventKind, Motion};
 use vibroimpact::verdict::NoImpact;
@@ -36,9 +40,9 @@ pub struct Simulated<E = Event> {
     pub shown_until: f64,
 }
 
-/// The number of impacts to follow, with defaults applied.
+/// The number of impacts, of a machine of events, to follow, with defaults applied.
 #[must_use]
-pub(crate) fn most_impacts(impacts: Option<u64>, periods: Option<f64>) -> u64 {
+pub fn most_impacts(impacts: Option<u64>, periods: Option<f64>) -> u64 {
     impacts.unwrap_or(if periods.is_some() { MOST_IMPACTS } else { DEFAULT_IMPACTS })
 }
 

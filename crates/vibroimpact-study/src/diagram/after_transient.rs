@@ -1,11 +1,11 @@
 //! A motion of a machine after its transient: its closings, or its states at phase 0.
 
-use super::grid::values_of;
-use super::simulate::limits;
+use super::{AfterTransient, DiagramPoint, MotionKind, SAME};
 use crate::PlanError;
-use crate::diagram::{AfterTransient, DiagramPoint, MotionKind, SAME};
 use crate::dynamics::refused;
 use crate::map::options;
+use crate::quantity::values_of;
+use crate::simulate::limits_until;
 use core::f64::consts::TAU;
 use vibroimpact::events::{End, Limits, Motion, Sample, Samples, Start};
 use vibroimpact::machine::Machine;
@@ -14,7 +14,7 @@ use vibroimpact::system::phase;
 use vibroimpact::verdict::{Count, Verdict, settle_machine};
 
 /// The largest number of events for each closing or period: opening, sticking, slipping and chatter are events too.
-pub(super) const EVENTS_EACH: u64 = 1000;
+pub(crate) const EVENTS_EACH: u64 = 1000;
 /// The number of closings for which a motion may have events in advance.
 const BEFORE: u64 = 10;
 
@@ -80,14 +80,14 @@ pub(super) fn closings(
 
 /// The state a time after a start without events.
 fn after(machine: &Machine, start: &Start, time: f64) -> Result<Start, PlanError> {
-    let samples = Samples::new(machine, start, limits(time), (time, time)).map_err(refused)?;
+    let samples = Samples::new(machine, start, limits_until(time), (time, time)).map_err(refused)?;
     Ok(samples.last().map_or_else(|| start.clone(), |sample| sample.start()))
 }
 
 /// A motion from its first state at phase 0 of the forcing: that state, and the states at phase 0 over so many forcing periods,
 /// which are even samples, with those at its events between them.
 #[allow(clippy::cast_precision_loss)] // at most 1.1e6 periods
-pub(super) fn at_phase_zero<'a>(
+pub(crate) fn at_phase_zero<'a>(
     machine: &'a Machine,
     start: &Start,
     periods: u64,
@@ -100,7 +100,7 @@ pub(super) fn at_phase_zero<'a>(
         start.clone()
     };
     let until = periods as f64 * period;
-    let samples = Samples::new(machine, &start, limits(until), (until, period)).map_err(refused)?;
+    let samples = Samples::new(machine, &start, limits_until(until), (until, period)).map_err(refused)?;
     Ok((start, samples))
 }
 

@@ -1,7 +1,7 @@
 //! The orbit diagram of a machine: its motion after the transient at each value of a number.
 
 use super::after_transient::{closings, settled, strobes};
-use crate::diagram::{AfterTransient, DiagramStep, Shown, Sweep, SweepDirection, check_order, check_shown};
+use super::{AfterTransient, DiagramStep, Shown, Sweep, SweepDirection, check_order, check_shown};
 use crate::machine::MachineSource;
 use crate::{DiagramPlan, PlanError};
 use vibroimpact::events::Start;

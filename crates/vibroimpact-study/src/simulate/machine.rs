@@ -1,38 +1,18 @@
 //! The events of a motion of a machine, up to a number of events or forcing periods, and the reason why the list ends.
 
-use crate::simulate::{SEARCH_LIMIT, TELL, check_lengths};
+use super::{SEARCH_LIMIT, TELL, most_impacts};
 use crate::{Control, PlanError, RunError, Simulated, Stopped};
 use vibroimpact::events::{End, Event, Limits, Motion, Start};
 use vibroimpact::machine::Machine;
 
-/// The number of events if neither events nor periods are given.
-const EVENTS: u64 = 100;
-/// The number of events if only a number of periods is given.
-const EVENTS_IN_PERIODS: u64 = 1_000_000;
-
-/// Checks the limits of a task.
-pub(crate) fn check_simulate(
-    machine: &Machine,
-    (impacts, periods): (Option<u64>, Option<f64>),
-) -> Result<(), PlanError> {
-    check_lengths(impacts, periods)?;
-    if periods.is_some() && machine.period().is_none() { Err(PlanError::Unforced) } else { Ok(()) }
-}
-
-/// The number of events after which a motion is not followed further.
-#[must_use]
-pub fn most_events(impacts: Option<u64>, periods: Option<f64>) -> u64 {
-    impacts.unwrap_or(if periods.is_some() { EVENTS_IN_PERIODS } else { EVENTS })
-}
-
 /// Follows a motion up to the given number of events and of forcing periods.
-pub(super) fn simulate(
+pub(crate) fn simulate(
     machine: &Machine,
     start: &Start,
     (impacts, periods): (Option<u64>, Option<f64>),
     control: &Control<'_>,
 ) -> Result<Simulated<Event>, RunError> {
-    let most = most_events(impacts, periods);
+    let most = most_impacts(impacts, periods);
     let until = periods.zip(machine.period()).map_or(f64::INFINITY, |(periods, period)| periods * period);
     let limits = limits(until);
     let mut motion = Motion::new(machine, start, limits).map_err(|error| PlanError::Machine(error.into()))?;
@@ -85,7 +65,7 @@ pub fn events_with_states<'a>(
 }
 
 /// The limits of a search for events until a time.
-pub(super) fn limits(until: f64) -> Limits {
+pub(crate) fn limits(until: f64) -> Limits {
     let limits = Limits::default();
     Limits { time: if until.is_finite() { limits.time.max(until) } else { limits.time }, ..limits }
 }

@@ -1,10 +1,18 @@
 //! The plan for the Lyapunov exponents of a motion: its start, the length of the measurement, and whether sections are
 //! computed.
 
+mod section;
+
 use crate::axis::{self, Axis, Coordinate};
+use crate::machine::{MachineSource, StartAxis};
 use crate::{PlanError, StartPlan, SystemPlan, limits};
+pub use section::SectionPoints;
+pub(crate) use section::section;
 use serde::{Deserialize, Serialize};
-use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT, ExponentOptions};
+use vibroimpact::chaos::{
+    DEFAULT_EVENTS, DEFAULT_IMPACTS, DEFAULT_MACHINE_TRANSIENT, DEFAULT_TRANSIENT, ExponentOptions,
+};
+use vibroimpact::machine::Machine;
 
 /// Default number of points of each section.
 pub const DEFAULT_POINTS: u64 = 5_000;
@@ -69,12 +77,7 @@ impl LyapunovPlan {
         let (impacts, transient) = self.lengths();
         limits::measured(Some(impacts), FEWEST_IMPACTS..=MOST_IMPACTS, Some(transient))?;
         limits::section(self.points)?;
-        axis::check(
-            "study of exponents",
-            &self.axes,
-            (0, MOST_AXES),
-            ((|_| true) as fn(Coordinate) -> bool, "anything"),
-        )?;
+        axis::check("study of exponents", &self.axes, (0, MOST_AXES))?;
         for corner in axis::corners(&self.axes) {
             let there = axis::system_at(system, &self.axes, |k| corner[k])?;
             let start = axis::start_at((system, &there), &self.start(), &self.axes, |k| corner[k]);
@@ -94,6 +97,37 @@ impl LyapunovPlan {
     pub fn options(&self) -> ExponentOptions {
         let (impacts, transient) = self.lengths();
         ExponentOptions::new(impacts, transient)
+    }
+}
+
+/// Minimum number of events of a measurement of a machine.
+const FEWEST_EVENTS: u64 = 25;
+
+impl LyapunovPlan<String> {
+    /// The numbers of events of the measurement and of the transient, which were checked.
+    pub(crate) fn events(&self) -> (u32, u32) {
+        let count = |given: Option<u64>| given.map(|given| u32::try_from(given).unwrap_or(u32::MAX));
+        let (impacts, transient) = (count(self.impacts), count(self.transient));
+        (impacts.unwrap_or(DEFAULT_EVENTS), transient.unwrap_or(DEFAULT_MACHINE_TRANSIENT))
+    }
+
+    /// Checks everything that can be checked without running the plan.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first invalid value.
+    pub fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
+        if self.points.is_some() && machine.period().is_none() {
+            return Err(PlanError::UnforcedSection);
+        }
+        limits::section(self.points)?;
+        limits::measured(self.impacts, FEWEST_EVENTS..=MOST_IMPACTS, self.transient)?;
+        axis::check("study of exponents", &self.axes, (0, MOST_AXES))?;
+        for axis in &self.axes {
+            if StartAxis::found(machine, &axis.vary)?.is_none() {
+                source.number(&axis.vary)?;
+            }
+        }
+        Ok(())
     }
 }
 

@@ -1,0 +1,149 @@
+//! What is told of the answers of one kind of system only; all else is written once, in the modules of answers and of JSON.
+
+use super::AnswerOf;
+use crate::json::attractors::Area;
+use crate::json::basin::MeasureFields;
+use crate::json::branch::{BranchAnswer, BranchObject, EventPoint};
+use crate::json::curve::CurveAnswer;
+use crate::json::event::{StateObject, Stops};
+use crate::json::lyapunov::LyapunovAnswer;
+use crate::json::motion::MotionObject;
+use crate::json::orbit::OrbitObject;
+use crate::json::settle::SettleAnswer;
+use crate::json::simulate::Events;
+use crate::json::system::SystemObject;
+use crate::response::ResponseView;
+use crate::scene::{BifurcationDiagram, View};
+use crate::{AnswerError, FieldName, ReportError, ShownValue, Table, Units, Varied};
+use vibroimpact::chaos::Exponents;
+use vibroimpact::machine::Machine;
+use vibroimpact::verdict::{Census, Settled, Verdict};
+use vibroimpact_plot::Figure;
+use vibroimpact_study::{
+    Along, Basin, Branches, CurvePlan, Cut, CycleOf, Dynamics, EventCurve, Orbit, PlanError, PointOf, ResponseCurves,
+    Simulated,
+};
+
+/// The branches of a system.
+pub(crate) type BranchesOf<D> = Branches<CycleOf<D>, PointOf<D>>;
+
+/// A curve of events of a system.
+pub(crate) type CurveOf<D> = EventCurve<CycleOf<D>, PointOf<D>, <D as Dynamics>::CurvePoint>;
+
+/// The motions of the starts of a system.
+pub(crate) type BasinOf<D> = Basin<<D as Dynamics>::System, <D as Dynamics>::Coordinate, <D as Dynamics>::Quantity>;
+
+/// A system whose answers are told. Errors are those of what cannot be drawn or tabulated, and of names of plans.
+#[allow(clippy::missing_errors_doc, clippy::must_use_candidate, reason = "all have the errors of the trait")]
+pub trait Told:
+    Dynamics<
+        Name: Varied,
+        Coordinate: Varied,
+        Quantity: FieldName,
+        Shown: ShownValue,
+        System: Stops,
+        Along: Along<Point: EventPoint>,
+    >
+{
+    /// The machine, if the system is one.
+    fn machine(_: &AnswerOf<Self>) -> Option<&Machine> {
+        None
+    }
+
+    /// The system, without the numbers that vary.
+    fn system(of: &AnswerOf<Self>) -> SystemObject<'_>;
+
+    /// The start of the motion.
+    fn state(of: &AnswerOf<Self>) -> StateObject<'_>;
+
+    /// A motion.
+    fn motion<'a>(of: &'a AnswerOf<Self>, verdict: &'a Verdict<Self::System>) -> MotionObject<'a>;
+
+    /// An orbit with a label.
+    fn orbit<'a>(of: &'a AnswerOf<Self>, orbit: &'a Orbit<CycleOf<Self>>) -> OrbitObject<'a>;
+
+    /// The events of a motion.
+    fn events<'a>(of: &'a AnswerOf<Self>, found: &'a Simulated<Self::Event>) -> Events<'a>;
+
+    /// A settled motion; a brief one is without what takes longest to compute.
+    fn settled<'a>(of: &'a AnswerOf<Self>, found: &'a Settled<Self::System>, brief: bool) -> SettleAnswer<'a>;
+
+    /// Exponents.
+    fn exponents_object<'a>(of: &'a AnswerOf<Self>, found: &'a Exponents<Self::System>) -> LyapunovAnswer<'a>;
+
+    /// The box of scattered starts, if there is one.
+    fn area(_: &AnswerOf<Self>) -> Option<Area> {
+        None
+    }
+
+    /// The measures of a basin, if it has any.
+    fn measures(_: &BasinOf<Self>) -> Option<MeasureFields> {
+        None
+    }
+
+    /// Branches along a line.
+    fn branch_object<'a>(
+        of: &'a AnswerOf<Self>,
+        found: &'a BranchesOf<Self>,
+        cut: &Cut<Self::Name>,
+    ) -> BranchAnswer<'a>;
+
+    /// A branch of a bifurcation diagram, with what it shows of each cycle.
+    fn branch_shown<'a>(
+        of: &'a BifurcationDiagram<Self>,
+        points: &'a [PointOf<Self>],
+        cut: &Cut<Self::Name>,
+    ) -> BranchObject<'a>;
+
+    /// A curve of events.
+    fn curve_object<'a>(
+        of: &'a AnswerOf<Self>,
+        found: &'a CurveOf<Self>,
+        plan: &CurvePlan<Self::Name>,
+    ) -> CurveAnswer<'a>;
+
+    /// A response.
+    fn response<'a>(of: &'a AnswerOf<Self>, found: &'a ResponseCurves) -> Result<ResponseView<'a>, PlanError>;
+
+    /// The title of a figure, without these numbers, which vary in it. A machine without a title of its own has this name.
+    fn title(&self, name: &str, units: &Units, varied: &[&str]) -> String;
+
+    /// The names of the speeds of orbits, and of those of branches.
+    fn speeds(of: &AnswerOf<Self>) -> [String; 2];
+
+    /// The figure of the events of a motion, over time or in the phase plane.
+    fn simulated_figure(
+        of: &AnswerOf<Self>,
+        found: &Simulated<Self::Event>,
+        view: View,
+    ) -> Result<Option<Figure>, ReportError>;
+
+    /// The figure of a settled motion.
+    fn settled_figure(of: &AnswerOf<Self>, found: &Settled<Self::System>, view: View) -> Result<Figure, AnswerError>;
+
+    /// The figure of both sections of an attractor.
+    fn section_figure(of: &AnswerOf<Self>, found: &Exponents<Self::System>, points: &Self::Sections) -> Figure;
+
+    /// The waveform of a motion, with this time between its points.
+    fn simulated_table<'a>(
+        of: &'a AnswerOf<Self>,
+        found: &'a Simulated<Self::Event>,
+        step: Option<f64>,
+    ) -> Result<Table<'a>, ReportError>;
+
+    /// The table of a settled motion.
+    fn settled_table<'a>(
+        of: &'a AnswerOf<Self>,
+        found: &'a Settled<Self::System>,
+        view: View,
+    ) -> Result<Table<'a>, ReportError>;
+
+    /// The table of attractors.
+    fn attractors_table<'a>(of: &'a AnswerOf<Self>, found: &'a Census<Self::System>) -> Table<'a>;
+
+    /// The table of a basin.
+    fn basin_table<'a>(of: &'a AnswerOf<Self>, found: &'a BasinOf<Self>) -> Result<Table<'a>, PlanError>;
+
+    /// The table of both sections of an attractor.
+    fn section_table<'a>(of: &'a AnswerOf<Self>, points: &'a Self::Sections) -> Table<'a>;
+}
