@@ -27,6 +27,7 @@ SPELLED: dict[tuple[str, str], tuple[tuple[str, ...], str]] = {
     ("branch", "to"): (("to", "back"), "float | tuple[float, float]"),
     ("curve", "over"): (("vary", "and"), "Mapping[str, Interval]"),
     ("region", "over"): (("across", "up"), "Mapping[str, Interval]"),
+    ("edge", "other"): (("other",), "Mapping[str, float]"),
     ("margins", "vary"): (("vary",), "Sequence[str]"),
     ("margins", "scale"): (("vary",), "Mapping[str, float]"),
     ("diagram", "direction"): (("direction",), "str"),

@@ -8,6 +8,7 @@ use core::fmt;
 use std::borrow::Cow;
 use thiserror::Error;
 use vibroimpact::continuation::BranchError;
+use vibroimpact::edge::EdgeError;
 use vibroimpact::verdict::LabelError;
 use vibroimpact::{Label, SystemError};
 
@@ -58,6 +59,14 @@ pub enum PlanError {
         /// Its last value.
         to: f64,
     },
+    /// No border between two starts.
+    #[error(transparent)]
+    Edge(#[from] EdgeError),
+    /// A border without a second start.
+    #[error(
+        "a border lies between two starts, and the second start is missing\nhint: --other v=1 changes the velocity of the first start; of a machine --other qdot.NAME=1"
+    )]
+    NoOtherStart,
     /// The number of an orbit without a label.
     #[error(
         "the number of an orbit is given without a label\nhint: orbits are numbered among those with the same label m/n"

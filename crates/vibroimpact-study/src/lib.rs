@@ -28,6 +28,7 @@
 //! | a curve of folds, flips or grazing impacts in two parameters | [`CurvePlan`], [`EventCurve`] |
 //! | the regions where a motion exists and where it is stable | [`RegionPlan`], [`Regions`], [`stability_regions`] |
 //! | a quantity of all motions over one parameter | [`ResponsePlan`], [`ResponseCurves`] |
+//! | the border between the starts of two motions, and the saddle on it | [`EdgePlan`] |
 //! | the distances of a motion from its nearest events | [`MarginsPlan`], [`MotionMargins`] |
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
@@ -45,6 +46,7 @@ mod curve;
 mod cut;
 pub mod diagram;
 mod dynamics;
+mod edge;
 mod error;
 mod event_columns;
 mod event_record;
@@ -89,6 +91,7 @@ pub use curve::{CurvePlan, EventCurve, FollowedEvent};
 pub use cut::Cut;
 pub use diagram::{Diagram, DiagramPlan};
 pub use dynamics::{CycleOf, Dynamics, PointOf, Setup, machine_label, quantity_path};
+pub use edge::{EdgePlan, PlacePlan};
 pub use error::{PlanError, RunError};
 pub use event_columns::{END_REASONS, EventColumns, REAL_COLUMNS};
 pub use event_record::EventRecord;

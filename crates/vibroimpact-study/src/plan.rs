@@ -219,6 +219,7 @@ impl Task {
             Self::Curve(plan) => plan.typed::<D::Name>()?.check(&of),
             Self::Region(plan) => plan.typed::<D::Name>()?.check(&of),
             Self::Response(plan) => plan.typed::<D::Name, D::Quantity>()?.check(&of),
+            Self::Edge(plan) => plan.typed::<D::Coordinate>()?.check(&of),
             _ => Ok(()),
         }?;
         D::check_own(&of, self)

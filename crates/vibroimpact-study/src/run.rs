@@ -5,6 +5,7 @@ use crate::branch::branches;
 use crate::curve::curve;
 use crate::diagram::Diagram;
 use crate::dynamics::{CycleOf, Dynamics, PointOf};
+use crate::edge::edge;
 use crate::machine::MachineSource;
 use crate::map::options;
 use crate::margins::margins;
@@ -18,6 +19,7 @@ use crate::{
 };
 use core::sync::atomic::{AtomicU64, Ordering};
 use vibroimpact::chaos::Exponents;
+use vibroimpact::edge::Edge;
 use vibroimpact::orbit::{Cycle, EarlierContact};
 use vibroimpact::verdict::{Census, Settled};
 
@@ -51,6 +53,8 @@ pub enum Results<D: Dynamics> {
     Response(ResponseCurves),
     /// The distances of the motion from its nearest events.
     Margins(MotionMargins<D::System, D::Name, PointOf<D>>),
+    /// The border between two starts, and the motion on it.
+    Edge(Edge<D::System>),
 }
 
 /// An orbit with a label.
@@ -136,6 +140,7 @@ fn results<D: Dynamics>(system: &D, plan: &Plan, control: &Control<'_>) -> Resul
         Task::Region(task) => Results::Region(regions(&of, &task.typed()?, control)?),
         Task::Response(task) => Results::Response(response(&of, &task.typed()?, control)?),
         Task::Margins(task) => Results::Margins(margins(&of, &task.typed()?, control)?),
+        Task::Edge(task) => Results::Edge(edge(&of, &task.typed()?, control)?),
         Task::Basin(_) | Task::Map(_) | Task::Diagram(_) | Task::SettleMany(_) => {
             D::over_grid(&of, &plan.task, control)?
         }

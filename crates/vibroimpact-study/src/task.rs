@@ -3,8 +3,8 @@
 use crate::diagram::ShowText;
 use crate::name::{Name, Variable};
 use crate::{
-    BasinPlan, BranchPlan, CurvePlan, DiagramPlan, LyapunovPlan, ManyPlan, MapPlan, MarginsPlan, PlanError, RegionPlan,
-    ResponsePlan, StartPlan,
+    BasinPlan, BranchPlan, CurvePlan, DiagramPlan, EdgePlan, LyapunovPlan, ManyPlan, MapPlan, MarginsPlan, PlanError,
+    RegionPlan, ResponsePlan, StartPlan,
 };
 use core::convert::Infallible;
 use serde::{Deserialize, Serialize};
@@ -70,6 +70,8 @@ pub enum Task {
     SettleMany(ManyPlan<Variable>),
     /// The distances of a motion from its nearest events.
     Margins(MarginsPlan<Variable>),
+    /// The border between the starts of two motions, and the saddle on it.
+    Edge(EdgePlan<Variable>),
 }
 
 const fn one() -> u64 {
@@ -139,6 +141,7 @@ impl Task {
             Self::Response(_) => "find a response",
             Self::SettleMany(_) => "settle points",
             Self::Margins(_) => "find margins",
+            Self::Edge(_) => "find an edge",
         }
     }
 
@@ -149,6 +152,7 @@ impl Task {
             Self::Basin(basin) => Some(&basin.start),
             Self::Lyapunov(lyapunov) => Some(&lyapunov.start),
             Self::Margins(margins) => Some(&margins.start),
+            Self::Edge(edge) => Some(&edge.start),
             _ => None,
         }
     }
@@ -160,6 +164,7 @@ impl Task {
             Self::Basin(basin) => Some(&mut basin.start),
             Self::Lyapunov(lyapunov) => Some(&mut lyapunov.start),
             Self::Margins(margins) => Some(&mut margins.start),
+            Self::Edge(edge) => Some(&mut edge.start),
             _ => None,
         }
     }
@@ -181,6 +186,7 @@ impl Task {
             Self::SettleMany(plan) => Self::SettleMany(plan.named(name)?),
             Self::Margins(plan) => Self::Margins(plan.named(name)?),
             Self::Region(plan) => Self::Region(plan.named(name)?),
+            Self::Edge(plan) => Self::Edge(plan.named(name)?),
             other => other.clone(),
         })
     }
@@ -252,7 +258,7 @@ macro_rules! with_quantities {
     )*};
 }
 
-with_names!(LyapunovPlan => Lyapunov, BranchPlan => Branch, CurvePlan => Curve, MarginsPlan => Margins, ManyPlan => SettleMany, RegionPlan => Region);
+with_names!(LyapunovPlan => Lyapunov, BranchPlan => Branch, CurvePlan => Curve, MarginsPlan => Margins, ManyPlan => SettleMany, RegionPlan => Region, EdgePlan => Edge);
 with_quantities!(BasinPlan => Basin, MapPlan => Map, ResponsePlan => Response);
 
 impl DiagramPlan<Variable, ShowText> {

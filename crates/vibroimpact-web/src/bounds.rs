@@ -55,6 +55,7 @@ pub(crate) fn check(plan: &Plan) -> Result<(), Refusal> {
         }
         Task::Branch(branch) => within("points", u64::from(branch.points), 20_000),
         Task::Region(region) => within("grid", u64::from(region.grid), 100),
+        Task::Edge(edge) => within("laps", u64::from(edge.laps()), 1_000),
         Task::Margins(margins) => within("lines", u64::from(margins.lines()), 10_000),
         Task::Settle { .. } | Task::Orbit { .. } | Task::Curve(_) => Ok(()),
         Task::SettleMany(_) => Err(Refusal::machine()),

@@ -8,6 +8,7 @@ mod completions;
 mod contact;
 mod curve;
 mod diagram;
+mod edge;
 mod estimate;
 mod explore;
 mod export;
@@ -81,6 +82,7 @@ enum Command {
     Response(response::Response),
     Margins(margins::Margins),
     Contact(contact::Contact),
+    Edge(edge::Edge),
     Machine(machine::MachineCommand),
     Basin(basin::Basin),
     Map(map::Map),
@@ -117,6 +119,7 @@ pub(crate) fn run(line: &CommandLine, session: &Session) -> Result<(), Failure> 
         Command::Response(args) => response::run(args, session),
         Command::Margins(args) => margins::run(args, session),
         Command::Contact(args) => contact::run(args, session),
+        Command::Edge(args) => edge::run(args, session),
         Command::Machine(args) => machine::run(args, session),
         Command::Basin(args) => basin::run(args, session),
         Command::Map(args) => map::run(args, session),

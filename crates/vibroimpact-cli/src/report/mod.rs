@@ -6,6 +6,7 @@ mod branch;
 mod certainty;
 mod curve;
 mod diagram;
+mod edge;
 mod leading;
 mod lyapunov;
 pub(crate) mod machine;
@@ -85,6 +86,7 @@ fn text_of<D: Teller>(of: &AnswerOf<D>) -> Result<String, Failure> {
             response::text(&D::response(of, found)?, &D::Name::of(vary)?.words(units))
         }
         Results::Margins(found) => margins::text(of, found),
+        Results::Edge(found) => edge::text(of, found),
     };
     Ok(D::heading(of) + &text)
 }

@@ -114,7 +114,7 @@ impl Teller for SystemPlan {
             Task::Map(_) | Task::Diagram(_) | Task::Region(_) | Task::Response(_) => String::new(),
             Task::Attractors { .. } => system,
             Task::Simulate { .. } => system + &start(),
-            Task::Settle { .. } | Task::Lyapunov(_) => system + &start() + "\n",
+            Task::Settle { .. } | Task::Lyapunov(_) | Task::Edge(_) => system + &start() + "\n",
             Task::Margins(plan) if plan.label.is_none() => system + &start() + "\n",
             _ => system + "\n",
         }

@@ -6,6 +6,7 @@ mod branches;
 mod colours;
 mod contact;
 mod diagrams;
+mod edge;
 mod edges;
 mod excitation;
 mod figures;

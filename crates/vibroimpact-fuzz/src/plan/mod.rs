@@ -150,6 +150,8 @@ fn budget(plan: &Plan) -> u64 {
         Task::Branch(branch) => {
             u64::from(branch.points).saturating_mul(u64::from(branch.follow) + 1).saturating_mul(100)
         }
+        // each of its bisections settles some thirty starts
+        Task::Edge(edge) => u64::from(edge.laps()).saturating_mul(30 * 1_000),
         // two branches for each parameter, and steps along each line
         Task::Margins(margins) => 12 * 20_000 + u64::from(margins.lines()).saturating_mul(1_000),
         // the plans that are drawn are of oscillators

@@ -27,6 +27,7 @@ Lengths are in units of the static deflection F/k, times in units of 1/omega_n, 
 | the regions where a motion exists and where it is stable | `region` |
 | a quantity of all motions over one parameter: branches, and sweeps up and down | `response` |
 | how far a motion is from the events that end or change it | `margins` |
+| the border between the starts of two motions, and the saddle on it | `edge` |
 | Lyapunov exponents and the dimension of the attractor | `lyapunov` |
 | the motion after its transient at each value of a parameter | `orbit_diagram` |
 | the motion to which each start leads; the motions at each point of a parameter plane | `basin`, `region_map` |
@@ -45,6 +46,7 @@ from vibroimpact._axis import Span, span
 from vibroimpact._branch import Branch, BranchEvent, Origin
 from vibroimpact._core import QuestionError, StoppedError, StoreError, __version__
 from vibroimpact._curve import Curve, CurveEvent
+from vibroimpact._edge import Edge
 from vibroimpact._events import Events
 from vibroimpact._lyapunov import Closings, Lyapunov, Strobes
 from vibroimpact._machine import Machine
@@ -54,7 +56,8 @@ from vibroimpact._orbits import EarlierContact, Orbit, Orbits
 from vibroimpact._oscillator import Oscillator, Questions, Units
 from vibroimpact._plan import Estimate, Plan
 from vibroimpact._questions import (
-    attractors, basin, branch, curve, lyapunov, margins, orbit_diagram, orbits, region, region_map, response, settle, simulate,
+    attractors, basin, branch, curve, edge, lyapunov, margins, orbit_diagram, orbits, region, region_map, response, settle,
+    simulate,
 )
 from vibroimpact._refine import refine
 from vibroimpact._region import Part, Polygon, Region
@@ -79,6 +82,7 @@ setattr(QuestionError, "hint", property(lambda error: str(error).partition("\nhi
 # the questions are methods of both systems
 _QUESTIONS = (
     simulate, simulate_many, settle, settle_many, attractors, lyapunov, orbits, branch, curve, region, margins, response, basin,
+    edge,
 )
 for _name, _question in {**{of.__name__: of for of in _QUESTIONS}, "map": region_map, "diagram": orbit_diagram}.items():
     setattr(Questions, _name, _question)
@@ -105,6 +109,7 @@ __all__ = [
     "Curve",
     "CurveEvent",
     "EarlierContact",
+    "Edge",
     "Estimate",
     "Events",
     "Lyapunov",
@@ -147,6 +152,7 @@ __all__ = [
     "branch",
     "curve",
     "dask",
+    "edge",
     "lyapunov",
     "margins",
     "open",

@@ -48,6 +48,7 @@ class Questions:
         region = _questions.region
         margins = _questions.margins
         response = _questions.response
+        edge = _questions.edge
         basin = _questions.basin
         map = _questions.region_map
         diagram = _questions.orbit_diagram

@@ -13,6 +13,7 @@ from vibroimpact._axis import axes, beside, interval, names, plane, sweep
 from vibroimpact._branch import Branch
 from vibroimpact._core import QuestionError
 from vibroimpact._curve import Curve
+from vibroimpact._edge import Edge
 from vibroimpact._lyapunov import Lyapunov
 from vibroimpact._margins import Margins
 from vibroimpact._orbits import Orbits
@@ -318,6 +319,40 @@ def response(system, vary, over, *, quantity=None, impacts=None):
     <Response of q.frame.displacement_amplitude over frequency: 3 values, 1 branch>
     """
     return {"vary": vary, "over": sweep(over), "quantity": quantity and quantity.replace("-", "_"), "impacts": impacts}
+
+
+@question(Edge, "edge", START, "searches")
+def edge(system, other, *, laps=None, impacts=None):
+    """Find the border between the starts of two motions, follow the motion on it, and find the saddle to which that leads.
+
+    The way from the start to another one is halved until the border is known to rounding. Two states close to each other, one on
+    each side, are then followed until they part, and their way is halved again. Where the motion on the border comes back to itself,
+    Newton's method finds the cycle.
+
+    Parameters
+    ----------
+    {system}
+    other : dict
+        In what the second start differs from the first: values of "x" and "v" of an oscillator, of "q.NAME" and "qdot.NAME" of a
+        machine.
+    {start}
+    laps : int
+        Forcing periods for which the motion on the border is followed at most, 1 to 10000. Default: 200.
+    impacts : int
+        Budget of impacts for each start, of a machine of events. Default: 20 000.
+    {progress}
+
+    Examples
+    --------
+    >>> import vibroimpact as vi
+    >>> found = vi.edge(vi.Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5), {"x": -2})
+    >>> found, found.saddle.stability
+    (<Edge of 2/1 and 1/1, saddle 2/1>, 'unstable')
+    >>> vi.Machine.named("fukaya-irie-1971").edge({"q.mass": -2})
+    <Edge of 2/1 and 1/1, saddle 2/1>
+    """
+    places = [{"coordinate": name, "value": float(value)} for name, value in dict(other).items()]
+    return {"other": places, "laps": laps, "impacts": impacts}
 
 
 @question(Margins, "margins", START, "margins")

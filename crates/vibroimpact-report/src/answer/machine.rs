@@ -80,6 +80,15 @@ impl Told for MachineSource {
         StateObject::of(&of.system, &of.start)
     }
 
+    fn numbers(_: &AnswerOf<Self>, start: &Start) -> (Vec<f64>, Vec<f64>) {
+        (start.q.clone(), start.qdot.clone())
+    }
+
+    fn names(of: &AnswerOf<Self>) -> (Vec<String>, Vec<String>) {
+        let all = &of.system.parts().coordinates;
+        (all.iter().map(|name| format!("q.{name}")).collect(), all.iter().map(|name| format!("qdot.{name}")).collect())
+    }
+
     fn motion<'a>(of: &'a AnswerOf<Self>, verdict: &'a Verdict<Machine>) -> MotionObject<'a> {
         MotionObject::of_machine(&of.system, verdict)
     }

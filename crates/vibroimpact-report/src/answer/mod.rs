@@ -281,6 +281,7 @@ impl<D: Told> AnswerOf<D> {
                     |found: &CountedMotion<D::System>| (found.verdict.label().into_owned(), census.share(found));
                 figure::bars::shares(&census.by_share().into_iter().map(share).collect::<Vec<_>>(), title(&[]))
             }
+            Results::Edge(found) => figure::edge::figure(self, found, title(&[])),
             Results::Margins(found) => {
                 let varied: Vec<&str> = found.parameters.iter().map(|of| of.scope.parameter.text()).collect();
                 let title = [title(&varied), figure::label(&found.motion.label())].join(": ");
@@ -372,6 +373,7 @@ impl<D: Told> AnswerOf<D> {
             Results::Curve(found) => table::curve::table(self.curve(found)?, machine, (&self.curve_plan()?, units)),
             Results::Region(found) => table::region::table(found, &self.region_plan()?, units),
             Results::Response(found) => table::response::table(D::response(self, found)?),
+            Results::Edge(found) => table::edge::table(self, found),
             Results::Margins(found) => table::margins::table(found, &self.system, *units),
         }))
     }

@@ -62,6 +62,15 @@ impl Told for SystemPlan {
         StateObject::of_oscillator(&start, &of.units)
     }
 
+    fn numbers(of: &AnswerOf<Self>, start: &Start) -> (Vec<f64>, Vec<f64>) {
+        (vec![start.x * of.units.length()], vec![start.v * of.units.velocity()])
+    }
+
+    fn names(of: &AnswerOf<Self>) -> (Vec<String>, Vec<String>) {
+        let name = |plain: &str, si: &str| vec![if of.units.si { format!("{plain}_{si}") } else { plain.to_owned() }];
+        (name("x", "m"), name("v", "m_per_s"))
+    }
+
     fn motion<'a>(of: &'a AnswerOf<Self>, verdict: &'a Verdict) -> MotionObject<'a> {
         MotionObject::of_oscillator(verdict, &of.system, &of.units)
     }

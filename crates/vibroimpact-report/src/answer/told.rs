@@ -56,6 +56,12 @@ pub trait Told:
     /// The start of the motion.
     fn state(of: &AnswerOf<Self>) -> StateObject<'_>;
 
+    /// A state as numbers: the coordinates, the velocities, and the names of both.
+    fn numbers(of: &AnswerOf<Self>, start: &Self::Start) -> (Vec<f64>, Vec<f64>);
+
+    /// The names of the coordinates in tables and on axes, and of the velocities.
+    fn names(of: &AnswerOf<Self>) -> (Vec<String>, Vec<String>);
+
     /// A motion.
     fn motion<'a>(of: &'a AnswerOf<Self>, verdict: &'a Verdict<Self::System>) -> MotionObject<'a>;
 

@@ -6,6 +6,7 @@ pub mod branch;
 pub mod coloured;
 pub mod curve;
 pub mod diagram;
+pub mod edge;
 pub mod machine;
 pub mod machine_waveform;
 pub mod map;

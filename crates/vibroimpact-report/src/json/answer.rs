@@ -4,6 +4,7 @@ use super::Document;
 use super::attractors::AttractorsAnswer;
 use super::basin::BasinAnswer;
 use super::diagram::DiagramAnswer;
+use super::edge::EdgeAnswer;
 use super::map::MapAnswer;
 use super::margins::MarginsAnswer;
 use super::region::RegionAnswer;
@@ -69,6 +70,7 @@ impl<D: Told> Serialize for Written<'_, D> {
                 let view = D::response(of, found).map_err(Error::custom)?;
                 document(of, ResponseAnswer::new(&view)).serialize(to)
             }
+            Results::Edge(found) => document(of, EdgeAnswer::new(of, found)).serialize(to),
             Results::Margins(found) => {
                 let motion = D::motion(of, &found.motion);
                 document(of, MarginsAnswer::new(found, system, motion, units)).serialize(to)
@@ -88,6 +90,7 @@ fn document<D: Told, T: Serialize>(of: &AnswerOf<D>, result: T) -> Document<'_, 
 const fn begins(task: &Task) -> bool {
     match task {
         Task::Simulate { .. } | Task::Settle { .. } | Task::Lyapunov(_) | Task::SettleMany(_) | Task::Basin(_) => true,
+        Task::Edge(_) => true,
         Task::Branch(branch) => branch.label.is_none(),
         Task::Curve(curve) => curve.label.is_none(),
         Task::Margins(margins) => margins.label.is_none(),

@@ -7,6 +7,7 @@ pub mod branch;
 mod certainty;
 pub mod curve;
 pub mod diagram;
+pub(crate) mod edge;
 pub mod event;
 pub mod lyapunov;
 pub mod map;

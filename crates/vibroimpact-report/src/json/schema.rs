@@ -5,6 +5,7 @@ use super::basin::BasinAnswer;
 use super::branch::BranchAnswer;
 use super::curve::CurveAnswer;
 use super::diagram::DiagramAnswer;
+use super::edge::EdgeAnswer;
 use super::lyapunov::LyapunovAnswer;
 use super::map::MapAnswer;
 use super::margins::MarginsAnswer;
@@ -22,7 +23,7 @@ use serde_json::Value;
 type Maker = fn() -> Value;
 
 /// The commands whose answers have a schema, with its maker.
-const SCHEMAS: [(&str, Maker); 15] = [
+const SCHEMAS: [(&str, Maker); 16] = [
     ("simulate", of::<SimulateAnswer<'static>>),
     ("settle", of::<SettleAnswer<'static>>),
     ("attractors", of::<AttractorsAnswer<'static>>),
@@ -32,6 +33,7 @@ const SCHEMAS: [(&str, Maker); 15] = [
     ("region", of::<RegionAnswer>),
     ("response", of::<ResponseAnswer<'static>>),
     ("margins", of::<MarginsAnswer<'static>>),
+    ("edge", of::<EdgeAnswer<'static>>),
     ("lyapunov", of::<LyapunovAnswer<'static>>),
     ("diagram", of::<DiagramAnswer>),
     ("map", of::<MapAnswer>),

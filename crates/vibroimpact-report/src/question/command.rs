@@ -7,8 +7,8 @@ use crate::units::{given, shown_span};
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{
     Axis, BasinPlan, Body, BodyNumber, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID,
-    DiagramPlan, LyapunovPlan, MapPlan, MarginsPlan, Name, Parameter, Plan, Quantity, RegionPlan, ResponsePlan,
-    StartPlan, Stretch, SystemPlan, Target, Task, Values, Variable,
+    DiagramPlan, EdgePlan, LyapunovPlan, MapPlan, MarginsPlan, Name, Parameter, PlacePlan, Plan, Quantity, RegionPlan,
+    ResponsePlan, StartPlan, Stretch, SystemPlan, Target, Task, Values, Variable,
 };
 
 /// The words of the `vibro` command for a plan, beginning with `vibro`. Its flags give exactly this plan: in nondimensional
@@ -53,6 +53,20 @@ pub fn command(plan: &Plan) -> Option<Vec<String>> {
             line.unless_amplitude(task.quantity()).given("impacts", task.impacts)
         }
         Task::Margins(task) => margins(system, &task.typed().ok()?, units),
+        Task::Edge(task) => {
+            let task: EdgePlan = task.typed().ok()?;
+            let place = |one: &PlacePlan| {
+                let unit = match one.coordinate {
+                    Coordinate::X => units.length(),
+                    Coordinate::V => units.velocity(),
+                    _ => 1.0,
+                };
+                format!("{}={}", one.coordinate.name(), number(one.value * unit))
+            };
+            let other: Vec<String> = task.other.iter().map(place).collect();
+            let line = Line::new("edge").system(system, &[]).start(&task.start.unwrap_or_default(), units);
+            line.flag("other", other.join(",")).given("laps", task.laps).given("impacts", task.impacts)
+        }
         Task::SettleMany(_) => return None,
     };
     let (refine, name) = match &plan.task {

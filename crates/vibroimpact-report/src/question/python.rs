@@ -6,8 +6,8 @@ use crate::scene::{SECTION_POINTS, View};
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{
     Axis, BasinPlan, Body, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan,
-    LyapunovPlan, MapPlan, MarginsPlan, Plan, Quantity, RegionPlan, ResponsePlan, StartPlan, Stretch, SystemPlan,
-    Target, Task, Values,
+    EdgePlan, LyapunovPlan, MapPlan, MarginsPlan, Plan, Quantity, RegionPlan, ResponsePlan, StartPlan, Stretch,
+    SystemPlan, Target, Task, Values,
 };
 
 /// A few lines of Python for a plan, whose numbers are nondimensional unless their names end in a unit; `None` for an invalid plan, and for a study of points.
@@ -74,6 +74,12 @@ pub fn python(plan: &Plan) -> Option<String> {
             ("found", call.given("impacts", task.impacts))
         }
         Task::Margins(task) => ("margins", margins(&task.typed().ok()?)),
+        Task::Edge(task) => {
+            let task: EdgePlan = task.typed().ok()?;
+            let other = mapping(task.other.iter().map(|one| (one.coordinate.name(), number(one.value))));
+            let call = Call::new("edge").then(other).start(&task.start.unwrap_or_default());
+            ("border", call.given("laps", task.laps).given("impacts", task.impacts))
+        }
         Task::SettleMany(_) => return None,
     };
     let told = match &plan.task {

@@ -8,6 +8,7 @@ pub mod branch;
 pub mod curve;
 mod cycle;
 pub mod diagram;
+pub mod edge;
 pub mod map;
 pub mod margins;
 pub mod orbits;

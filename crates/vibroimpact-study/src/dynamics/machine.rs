@@ -4,7 +4,7 @@ use super::{Dynamics, Setup};
 use crate::diagram::{Diagram, DiagramPlan};
 use crate::in_memory::{DIAGRAM_TILE, diagram, machine_attractors, machine_basin, machine_map, machine_points};
 use crate::lyapunov::{SectionPoints, section};
-use crate::machine::{MachineSource, VariedMachine};
+use crate::machine::{MachineSource, StartAxis, VariedMachine};
 use crate::map::options;
 use crate::margins::{MotionBox, ParameterMargin};
 use crate::orbit_line::OrbitLine;
@@ -93,6 +93,19 @@ impl Dynamics for MachineSource {
         }
         let (system, start) = self.described()?;
         Ok(Setup { written: self, system, start })
+    }
+
+    fn placed(machine: &Machine, mut start: Start, path: &String, value: f64) -> Result<Start, PlanError> {
+        start.q.resize(machine.n(), 0.0);
+        start.qdot.resize(machine.n(), 0.0);
+        StartAxis::of(machine, path)?.set(&mut start, value);
+        // contacts and digits belong to the state before
+        Ok(Start { contacts: Vec::new(), exact: Vec::new(), ..start })
+    }
+
+    fn allowed(machine: &Machine, start: Start) -> Result<Start, PlanError> {
+        Motion::new(machine, &start, Limits::default()).map_err(refused)?;
+        Ok(start)
     }
 
     fn check_own(of: &Setup<'_, Self>, task: &Task) -> Result<(), PlanError> {

@@ -21,6 +21,7 @@ use core::fmt::Debug;
 use std::borrow::Cow;
 use vibroimpact::Label;
 use vibroimpact::continuation::CurveEvent;
+use vibroimpact::edge::Bordered;
 use vibroimpact::orbit::Stability;
 use vibroimpact::verdict::{Census, SettleOptions, Settled, System, Verdict};
 
@@ -36,9 +37,9 @@ pub trait Dynamics: Clone + Debug {
     /// What an orbit diagram shows of a motion.
     type Shown: Shown + Into<ShowText> + for<'a> TryFrom<&'a ShowText, Error = PlanError>;
     /// The system.
-    type System: System;
+    type System: Bordered<Start = Self::Start>;
     /// Where a motion starts.
-    type Start: Clone + Debug;
+    type Start: Clone + Debug + PartialEq;
     /// An event of a motion.
     type Event: Clone + Debug;
     /// The points of an attractor in two sections.
@@ -86,6 +87,16 @@ pub trait Dynamics: Clone + Debug {
 
     /// The orbit diagram from the columns of its study. Motions of tiles that are not complete are left out.
     fn diagram_of(plan: &DiagramPlan<Self::Name, Self::Shown>, columns: &[Column]) -> Diagram<Self::Name, Self::Shown>;
+    /// A start with another value of a coordinate.
+    fn placed(
+        system: &Self::System,
+        start: Self::Start,
+        coordinate: &Self::Coordinate,
+        value: f64,
+    ) -> Result<Self::Start, PlanError>;
+
+    /// A start, if it is allowed.
+    fn allowed(system: &Self::System, start: Self::Start) -> Result<Self::Start, PlanError>;
 
     /// The value of a number.
     fn number(&self, name: &Self::Name) -> Result<f64, PlanError>;

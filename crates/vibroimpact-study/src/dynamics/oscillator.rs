@@ -66,6 +66,23 @@ impl Dynamics for SystemPlan {
         })
     }
 
+    fn placed(_: &Oscillator, mut start: Start, coordinate: &Coordinate, value: f64) -> Result<Start, PlanError> {
+        match coordinate {
+            Coordinate::X => start.x = value,
+            Coordinate::V => start.v = value,
+            Coordinate::Phase => start.phase = value,
+            Coordinate::Parameter(of) => {
+                let (task, known) = ("second start", "x or v");
+                return Err(PlanError::WrongAxis { task, name: of.name().into(), known });
+            }
+        }
+        Ok(start)
+    }
+
+    fn allowed(osc: &Oscillator, start: Start) -> Result<Start, PlanError> {
+        Ok(Start::new(osc, start.x, start.v, start.phase)?)
+    }
+
     fn check_own(of: &Setup<'_, Self>, task: &Task) -> Result<(), PlanError> {
         match task {
             Task::Basin(plan) => plan.typed::<Coordinate, Quantity>()?.check(of.written),

@@ -291,6 +291,9 @@ impl Body {
         let unbalance = self.unbalance_kg_m.unwrap_or(0.0);
         let (mut re, mut im) = (self.force_n.unwrap_or(0.0) + unbalance * omega * omega, 0.0);
         let mut add = |(a, b): (f64, f64), (displacement, phase): Harmonic| {
+            if displacement == 0.0 {
+                return;
+            }
             let (sin, cos) = sin_cos(phase);
             // (a + ib) times the turn of the phase
             re += displacement * (a * cos - b * sin);

@@ -53,6 +53,8 @@ pub(super) struct GuardStart {
     pub(super) constant: f64,
     /// How many of its derivatives, from the value on, are zero there because the flight begins on it.
     pub(super) known: usize,
+    /// Whether its value has more digits than the coordinates.
+    sharp: bool,
     /// The surface of its stop.
     pub(super) recovery: Option<Recovery>,
 }
@@ -172,6 +174,7 @@ impl MachineFlight {
             let (known, recovery) = known(guard.kind);
             let function = &guard.function;
             let mut moving = function.signal.swing(turns);
+            let mut sharp = false;
             self.harmonics.extend(function.signal.turned(turns));
             // the value at the beginning; what is `moving` in it is counted from there later on
             let (mut sum, mut size);
@@ -181,7 +184,7 @@ impl MachineFlight {
                 (sum, size) = (0.0, function.signal.constant.abs() + moving.abs());
                 if known == 0 {
                     let start = gap(j);
-                    (sum, size) = (start.gap, start.size);
+                    (sum, size, sharp) = (start.gap, start.size, start.sharp);
                 }
                 // with plain modes a gap has no part in velocities
                 if !structure.plain {
@@ -218,7 +221,7 @@ impl MachineFlight {
             }
             // a guard on which the flight begins is exactly zero: a rounding error would be an event at once
             let value = if known > 0 { 0.0 } else { sum };
-            self.guards.push(GuardStart { value, size, constant: value - moving, known, recovery });
+            self.guards.push(GuardStart { value, size, constant: value - moving, known, sharp, recovery });
         }
         let drive = &mut self.drive;
         // the harmonics drive the modes apart from this: of walls that swing the force has the mean place
@@ -246,7 +249,7 @@ impl MachineFlight {
     /// Whether the flight begins on this guard, or with a value of it that has more digits than the coordinates.
     pub(crate) fn begins_exactly(&self, guard: usize) -> bool {
         let start = &self.guards[guard];
-        start.known > 0 || start.size <= start.value.abs()
+        start.known > 0 || start.sharp
     }
 
     /// The amplitudes of the harmonics of a guard, turned to the phase of the beginning.

@@ -123,8 +123,8 @@ fn together(flight: &MachineFlight, s: f64, guards: &mut Guards, buffers: &mut B
         let of = &flight.structure.guards[g].function;
         // by how much it may differ between equal structures that move alike
         let motion = flight.size(of).max((dot(&of.position, &of.position) * buffers.square).sqrt());
-        // one that is zero exactly at the beginning has these errors when the others have had time to move it
-        let share = if flight.guards[g].known > 0 { later } else { 1.0 };
+        // one that is exact at the beginning has these errors when the others have had time to move it
+        let share = if flight.begins_exactly(g) { later } else { 1.0 };
         let rounding = error + f64::EPSILON * share * motion;
         (value, rate, rounding)
     };

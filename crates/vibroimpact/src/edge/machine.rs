@@ -140,7 +140,9 @@ mod tests {
         let starts = starts.map(|start| Start { q: vec![start.x, 0.0], qdot: vec![start.v, 0.0], ..Start::default() });
         let found = edge(&machine(), &starts, &EdgeOptions::default()).unwrap();
         assert!((own.part - found.part).abs() < 1e-8, "{starts:?} {} {}", own.part, found.part);
-        let (own, found) = (own.saddle.unwrap(), found.saddle.unwrap());
+        let (Some(Verdict::Periodic(own)), Some(Verdict::Periodic(found))) = (own.saddle, found.saddle) else {
+            panic!("saddles")
+        };
         assert_eq!(own.label, found.label);
         assert!((own.fastest() - found.fastest()).abs() < 1e-10);
         assert!((own.multipliers[0].re - found.multipliers[0].re).abs() < 1e-8, "{own:?} {found:?}");

@@ -97,7 +97,7 @@ pub(super) mod tests {
     fn the_saddle_lies_between_both_motions() {
         let osc = scenario::S.oscillator();
         let found = edge(&osc, &starts(), &EdgeOptions::default()).unwrap();
-        let saddle = found.saddle.unwrap();
+        let Some(Verdict::Periodic(saddle)) = found.saddle.clone() else { panic!("a saddle") };
         assert!(!saddle.stable() && saddle.residual < 1e-11, "{saddle:?}");
         let labels = found.sides.each_ref().map(Verdict::label);
         assert_ne!(labels[0], labels[1]);

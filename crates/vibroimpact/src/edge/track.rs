@@ -99,6 +99,8 @@ pub struct EdgePoint<S: Bordered> {
     pub time: f64,
     /// The state of the pair that leads to the first motion.
     pub state: S::Start,
+    /// Its phase.
+    pub phase: f64,
     /// The distance of the pair, relative to the size of its states: the border passes between them.
     pub apart: f64,
 }
@@ -113,9 +115,9 @@ pub struct Edge<S: Bordered> {
     pub part: f64,
     /// The motion on the border, a point each lap; the first is at the border on the way between the two starts.
     pub track: Vec<EdgePoint<S>>,
-    /// The cycle to which it leads; `None` if it does not come back close enough to itself within the laps, as a border that
+    /// The periodic motion to which it leads; `None` if it does not come back close enough to itself within the laps, as a border that
     /// leads to a chaotic saddle, or if it leads to no cycle.
-    pub saddle: Option<S::Cycle>,
+    pub saddle: Option<Verdict<S>>,
 }
 
 /// Why there is no border between two starts.
@@ -143,12 +145,12 @@ pub enum EdgeError {
 ///
 /// ```
 /// use vibroimpact::edge::{EdgeOptions, edge};
-/// use vibroimpact::{Start, scenario};
+/// use vibroimpact::{Start, scenario, verdict::Stability};
 /// let osc = scenario::S.oscillator();
-/// let starts = [0.0, 1.0].map(|v| Start { x: 0.0, v, phase: 0.0 }); // they lead to 2/1 and to 1/1
+/// let starts = [0.0, -2.0].map(|x| Start { x, v: 0.0, phase: 0.0 }); // they lead to 2/1 and to 1/1
 /// let found = edge(&osc, &starts, &EdgeOptions::default())?;
 /// let saddle = found.saddle.unwrap();
-/// assert!(!saddle.stable());
+/// assert_eq!(saddle.stability(&osc), Some(Stability::Unstable));
 /// # Ok::<(), vibroimpact::edge::EdgeError>(())
 /// ```
 ///
@@ -188,7 +190,8 @@ pub fn edge_while<S: Bordered>(
     let mut saddle = None;
     for lap in 0..=options.laps {
         let apart = system.distance(&pair[0], &pair[1]);
-        track.push(EdgePoint { time, state: pair[0].clone(), apart });
+        let phase = system.phase(&pair[0]);
+        track.push(EdgePoint { time, state: pair[0].clone(), phase, apart });
         saddle = search.saddle(&track);
         if saddle.is_some() || lap == options.laps {
             break;
@@ -199,7 +202,7 @@ pub fn edge_while<S: Bordered>(
             pair = search.bisected(&pair)?.0;
         }
     }
-    Ok(Edge { sides: [search.first, search.beyond], part, track, saddle })
+    Ok(Edge { sides: [search.first, search.beyond], part, track, saddle: saddle.map(Verdict::Periodic) })
 }
 
 struct Search<'a, S: Bordered> {

@@ -223,7 +223,7 @@ impl Motion<'_> {
         self.instants.silence(&mut there.x, &mut there.v, 1);
         there.known.retain(|(kind, _)| !places.contains(&kind.place(stops)));
         // they were those before the coordinates have moved
-        there.gaps.retain(|(j, _)| there.states[*j] == ContactState::Closed);
+        there.gaps.retain(|of| there.states[of.stop] == ContactState::Closed);
         candidates.extend(places);
         candidates.sort_unstable();
         candidates.dedup();

@@ -54,7 +54,7 @@ pub use event::{ContactStart, End, Event, EventKind, Limits, Start};
 pub use motion::Motion;
 pub(crate) use passage::Passage;
 pub(crate) use place::{Place, Structures, standing_back};
-pub(crate) use saltation::{EventLaw, LinearEvent, StateShape, step_derivative};
+pub(crate) use saltation::{EventLaw, LinearEvent, LinearGuard, StateShape, step_derivative};
 pub use sample::Sample;
 pub use samples::Samples;
 pub use states::{crossings, states_at};

@@ -84,6 +84,21 @@ impl Scratch {
     }
 }
 
+/// A gap with more digits than the coordinates leave.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SharpGap {
+    pub(crate) stop: usize,
+    pub(crate) gap: f64,
+    /// The size to which its rounding error is relative.
+    pub(crate) size: f64,
+}
+
+impl SharpGap {
+    const fn of_closed((stop, gap): (usize, f64)) -> Self {
+        Self { stop, gap, size: gap.abs() }
+    }
+}
+
 /// The state of a machine at one time.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Place {
@@ -99,7 +114,7 @@ pub(crate) struct Place {
     /// The gaps of stops that were closed in the last flight, or have closed on their surface, and small ones of open stops after a short
     /// flight. They have more digits than the coordinates leave: a stiff stop is closed by little, and its force is as accurate as
     /// its gap; the impacts of a chatter come as accurately as the gaps are known that are left between them.
-    pub(crate) gaps: Vec<(usize, f64)>,
+    pub(crate) gaps: Vec<SharpGap>,
 }
 
 impl Place {
@@ -157,11 +172,12 @@ impl Place {
         let gap = move |stop: usize| {
             // where the stop has just closed its gap is exactly 0
             let at_zero = self.known.iter().any(|(kind, _)| *kind == GuardKind::Depth(stop));
-            let sharp = if at_zero { Some(0.0) } else { self.sharp_gap(stop) };
+            let closed = SharpGap { stop, gap: 0.0, size: 0.0 };
+            let sharp = if at_zero { Some(closed) } else { self.sharp(stop) };
             let (w, wall) = (&normal.directions[stop], &normal.walls[stop]);
             let swing = wall.swing(turns);
-            if let Some(gap) = sharp {
-                return GapStart { gap, size: gap.abs(), swing, sharp: true };
+            if let Some(SharpGap { gap, size, .. }) = sharp {
+                return GapStart { gap, size, swing, sharp: true };
             }
             let (mut way, mut size) = (0.0, wall.constant.abs() + swing.abs());
             for (w, x) in w.iter().zip(&self.x) {
@@ -183,7 +199,7 @@ impl Place {
     pub(crate) fn move_along(&mut self, flight: &MachineFlight, (modes, s): (&Modes, f64), frequency: Option<f64>) {
         flight.state(modes, &mut self.x, &mut self.v);
         self.gaps.clear();
-        self.gaps.extend(flight.closed_gaps(modes));
+        self.gaps.extend(flight.closed_gaps(modes).map(SharpGap::of_closed));
         for surface in &mut self.surfaces {
             if let Some(Recovery { size, rate, .. }) = surface {
                 *size *= crate::system::decay(*rate * s).0;
@@ -230,8 +246,8 @@ impl Place {
         match surface {
             // the stop is deep already
             Some(Recovery { size, offset, .. }) => {
-                self.gaps.retain(|(of, _)| *of != j);
-                self.gaps.push((j, offset - size));
+                self.gaps.retain(|of| of.stop != j);
+                self.gaps.push(SharpGap::of_closed((j, offset - size)));
             }
             None => self.note(GuardKind::Depth(j), 1),
         }
@@ -250,7 +266,7 @@ impl Place {
             if gap > 0.0 && error < SHARP * gap {
                 let terms = normal.directions[stop].iter().zip(&self.x).map(|(w, x)| (w * x).abs()).sum::<f64>();
                 if error < 0.1 * f64::EPSILON * (normal.walls[stop].constant.abs() + terms) {
-                    self.gaps.push((stop, gap));
+                    self.gaps.push(SharpGap { stop, gap, size: error / f64::EPSILON });
                 }
             }
         }
@@ -258,7 +274,11 @@ impl Place {
 
     /// A gap with more digits than the coordinates leave.
     pub(super) fn sharp_gap(&self, stop: usize) -> Option<f64> {
-        self.gaps.iter().find(|(of, _)| *of == stop).map(|(_, gap)| *gap)
+        self.sharp(stop).map(|of| of.gap)
+    }
+
+    fn sharp(&self, stop: usize) -> Option<SharpGap> {
+        self.gaps.iter().find(|of| of.stop == stop).copied()
     }
 
     /// Notes how many derivatives of a guard are zero now.

@@ -6,7 +6,7 @@
 
 use super::event::{ContactStart, Start};
 use super::instants::Instants;
-use super::place::{Place, standing_back};
+use super::place::{Place, SharpGap, standing_back};
 use crate::arc::Recovery;
 use crate::machine::{Fault, Machine, MachineError, Opening, StopLaw};
 use crate::regime::{ContactState, GuardKind, Normal};
@@ -103,8 +103,8 @@ impl Place {
                 add(format!("spring.{}", machine.name_of(j)), vec![*size]);
             }
         }
-        for (j, gap) in &self.gaps {
-            add(format!("gap.{}", machine.name_of(*j)), vec![*gap]);
+        for SharpGap { stop, gap, size } in &self.gaps {
+            add(format!("gap.{}", machine.name_of(*stop)), vec![*gap, *size]);
         }
         for (kind, count) in &self.known {
             let name = machine.name_of(kind.place(stops));
@@ -202,14 +202,17 @@ impl Place {
                         _ => return wrong("this is no zero of a contact"),
                     }
                 }
-                ("spring" | "gap" | "impact", [value]) => {
+                ("gap", [gap, size]) if *size >= 0.0 => {
+                    let Some(stop) = of(rest).filter(|at| *at < stops) else { return wrong("there is no such stop") };
+                    place.gaps.push(SharpGap { stop, gap: *gap, size: *size });
+                }
+                ("spring" | "impact", [value]) => {
                     let Some(stop) = of(rest).filter(|at| *at < stops) else { return wrong("there is no such stop") };
                     match (kind, &mut place.surfaces[stop]) {
                         ("spring", Some(surface)) => surface.size = *value,
                         // the numbers of the start have been changed since: without its digits it is a start all the
                         // same
                         ("spring", None) => return Ok(None),
-                        ("gap", _) => place.gaps.push((stop, *value)),
                         _ => history.last.push((stop, *value)),
                     }
                 }

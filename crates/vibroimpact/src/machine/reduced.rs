@@ -246,7 +246,9 @@ impl OneCoordinate {
         let (re, im) = (k - m * frequency * frequency, frequency * c);
         let drive =
             (sign * (force.0 - (re * swing.0 - im * swing.1)), sign * (force.1 - (re * swing.1 + im * swing.0)));
-        let amplitude = hypot(drive.0, drive.1);
+        // a force in phase with the sine, which most have, needs no roots and no angles: they are these to the last bit
+        let (amplitude, phase) =
+            if drive.1 == 0.0 && drive.0 > 0.0 { drive } else { (hypot(drive.0, drive.1), atan2(drive.1, drive.0)) };
         let natural = (k / m).sqrt();
         let (scales, offset) = (Scales { length: amplitude / k, time: 1.0 / natural, mass: m }, self.constant / k);
         // without a force there is no unit of length; quotients of valid numbers can overflow or underflow
@@ -265,7 +267,7 @@ impl OneCoordinate {
         Ok(Some(Reduction {
             oscillator,
             scales,
-            phase: atan2(drive.1, drive.0),
+            phase,
             offset,
             sign,
             frequency,

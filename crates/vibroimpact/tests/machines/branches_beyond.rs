@@ -343,3 +343,29 @@ fn f42y_a_chatter_with_a_joint_has_no_corners() {
     let points = traced((&machine, "frequency"), &cycle, (0.3, 0.5), Direction::Down);
     assert_eq!(events(&points), [(BranchEvent::EndOfRange, 0.3)]);
 }
+
+/// Two balls beside each other have the branch of one, through the end of their rests and all grazing contacts and folds beyond. Their
+/// impacts are at the same times, so the gap of only one of them times an event, and nothing tied the place of the other one: cycles of
+/// free bodies that strike together had no branch, and this one turned back at a `change`.
+#[test]
+fn f42z_bodies_beside_each_other_have_the_branch_of_one() {
+    let events_of = |n: usize| -> Vec<(BranchEvent, f64)> {
+        let machine = balls(n, 0.4, 1.2);
+        let cycle = settled(&machine, &Start { q: vec![1.0; n], ..Start::default() }).unwrap();
+        let all = events(&traced((&machine, "frequency"), &cycle, (1.0, 1.5), Direction::Up));
+        // a flip of both is none of the product of their multipliers
+        all.into_iter().filter(|(event, _)| *event != BranchEvent::Flip).collect()
+    };
+    let (one, two) = (events_of(1), events_of(2));
+    assert!(
+        matches!(one[0], (BranchEvent::Sticking { stop: 0, begins: false }, at) if (at - 1.209_992_208).abs() < 1e-8)
+    );
+    // where the impacts of a chatter have just become finitely many, the one that is left first is not always told
+    let told = |all: &[(BranchEvent, f64)]| all.iter().filter(|(_, at)| *at > 1.2103).copied().collect::<Vec<_>>();
+    let (one, two) = (told(&one), told(&two));
+    assert_eq!(one.len(), two.len(), "{one:?} {two:?}");
+    for ((event, at), (other, beside)) in one.into_iter().zip(two) {
+        assert_eq!(event, other);
+        assert!((at - beside).abs() < 1e-7, "{event:?} at {at} and {beside}");
+    }
+}

@@ -298,3 +298,26 @@ fn f42p_a_preloaded_stop_at_the_gap_of_a_plastic_wall() {
         assert_eq!(label(&parts, &start), "1/1", "{length}");
     }
 }
+
+/// Where two stops are struck at one time and one before the other, by however little, would lead elsewhere, the event says so: a bar
+/// dropped flat on two feet, unless its inertia is that at which an impact on one foot does not move the other one; two balls never.
+#[test]
+fn f42w_a_tie_that_decides_is_told() {
+    let ties = |inertia: f64, feet: [&[f64]; 2]| {
+        let parts = MachineParts::new(["one", "other"])
+            .with_mass(0, 1.0)
+            .with_mass(1, inertia)
+            .with_constant(0, -1.0)
+            .with_constant(1, if feet[0][1] == 0.0 { -1.0 } else { 0.0 })
+            .with_rigid_stop("left", feet[0], 0.5, 0.5)
+            .with_rigid_stop("right", feet[1], 0.5, 0.5);
+        let (found, _) = events(&parts, &Start::default(), 2);
+        assert!(found.iter().all(|event| event.kind == EventKind::Impact && event.time == 1.0), "{found:?}");
+        assert_eq!(found[0].qdot, found[1].qdot);
+        [found[0].tie, found[1].tie]
+    };
+    let feet: [&[f64]; 2] = [&[-1.0, -1.0], &[-1.0, 1.0]];
+    assert_eq!(ties(0.25, feet), [true, true]);
+    assert_eq!(ties(1.0, feet), [false, false]);
+    assert_eq!(ties(1.0, [&[-1.0, 0.0], &[0.0, -1.0]]), [false, false]);
+}

@@ -3,14 +3,63 @@
 
 use super::frame::MachineFrame;
 use super::ring::{MachineBlock, MachineRing, RingEvent};
-use crate::events::{ByNumber, EventLaw, LinearEvent, Place, standing_back};
+use crate::events::{ByNumber, EventLaw, LinearEvent, LinearGuard, Place, standing_back};
 use crate::machine::{MachineParts, StopLaw};
 use crate::math::{Matrix, add_scaled, dot};
-use crate::regime::{ContactState, GuardKind, Structure};
+use crate::regime::{ContactState, GuardKind, Orthonormal, Structure};
 use std::sync::Arc;
 
 /// A contact that vanishes may last for a negative time, as a phase up to this: its solutions are not admissible then.
 const BRIEF: f64 = 0.05;
+
+/// Another rigid stop that is struck at the same time as the one whose gap times the event, and a direction along which the gaps before
+/// it do not change. The structure is moved onto it: its gap has no equation of its own, and of bodies that nothing but their impacts
+/// ties to each other the place of one beside another would be undetermined.
+struct Beside {
+    guard: usize,
+    stop: usize,
+    along: Vec<f64>,
+}
+
+impl Beside {
+    /// Those among the guards of an event.
+    fn all(
+        frame: &MachineFrame<'_>,
+        structure: &Structure,
+        (guards, pushed): (&[usize], &[(usize, f64)]),
+    ) -> Vec<Self> {
+        let directions = &frame.normal.directions;
+        let struck = |guard: &usize| match structure.guards[*guard].kind {
+            GuardKind::Gap(stop) if pushed.iter().any(|(j, _)| *j == stop) => Some((*guard, stop)),
+            _ => None,
+        };
+        let mut before: Vec<&Vec<f64>> = Vec::new();
+        let mut all = Vec::new();
+        for (k, guard) in guards.iter().enumerate() {
+            let Some((guard, stop)) = struck(guard) else { continue };
+            let direction = &directions[stop];
+            if k > 0
+                && let Some(along) = Orthonormal::spanning(before.iter().copied()).beside(direction)
+            {
+                all.push(Self { guard, stop, along });
+            }
+            before.push(direction);
+        }
+        // the first one must time the event
+        if guards.first().and_then(struck).is_none() { Vec::new() } else { all }
+    }
+}
+
+/// By how much the coordinates move where these gaps, or changes of them, become zero.
+fn moved_onto(beside: &[Beside], frame: &MachineFrame<'_>, gaps: &[f64]) -> Vec<f64> {
+    let mut moved = vec![0.0; frame.shape.n];
+    for (Beside { stop, along, .. }, gap) in beside.iter().zip(gaps) {
+        let direction = &frame.normal.directions[*stop];
+        let left = gap - dot(direction, &moved);
+        add_scaled(&mut moved, left / dot(direction, along), along);
+    }
+    moved
+}
 
 /// A flight of a ring, and the event at its end.
 struct RingFlight<'a> {
@@ -21,6 +70,7 @@ struct RingFlight<'a> {
     /// The guards of the structure that are zero at the end, and the rigid stops that push there with their restitution.
     guards: Vec<usize>,
     pushed: Vec<(usize, f64)>,
+    beside: Vec<Beside>,
     /// The states before and after the event.
     before: Place,
     after: Place,
@@ -33,6 +83,11 @@ struct RingFlight<'a> {
 }
 
 impl RingFlight<'_> {
+    /// The law of the event if another guard timed it.
+    fn timed_by<'b>(&'b self, guard: &'b [usize; 1]) -> EventLaw<'b> {
+        EventLaw { guards: guard, ..self.law() }
+    }
+
     fn law(&self) -> EventLaw<'_> {
         EventLaw { structure: &self.structure, guards: &self.guards, pushed: &self.pushed, rounds: &self.event.rounds }
     }
@@ -76,13 +131,18 @@ impl MachineRing {
             StopLaw::Rigid { restitution } => restitution,
             StopLaw::Compliant { .. } => 0.0,
         };
-        let pushed = event.pushed.iter().map(|(j, still)| (*j, if *still { 0.0 } else { restitution(*j) })).collect();
+        let pushed: Vec<(usize, f64)> =
+            event.pushed.iter().map(|(j, still)| (*j, if *still { 0.0 } else { restitution(*j) })).collect();
+        let beside = Beside::all(frame, &structure, (&guards, &pushed));
         // the cycle closes here
         let drifts = next == 0 && !frame.normal.translations.is_empty();
         let (to, after) = (self.place(next), before.clone());
         let mut flight =
-            RingFlight { event, time, from, structure, guards, pushed, before, after, to, divisor, drifts };
+            RingFlight { event, time, from, structure, guards, pushed, beside, before, after, to, divisor, drifts };
         flight.after.v = flight.law().rebound(&frame.normal, &flight.before)?;
+        let gap = |own: &Beside| flight.timed_by(&[own.guard]).value(&frame.normal, &flight.before);
+        let gaps: Vec<f64> = flight.beside.iter().map(gap).collect();
+        add_scaled(&mut flight.after.x, 1.0, &moved_onto(&flight.beside, frame, &gaps));
         flight.after.states.clone_from(&event.after);
         let turns = flight.before.turns(&frame.normal);
         for (j, back) in event.back.iter().enumerate() {
@@ -111,7 +171,21 @@ impl MachineRing {
         let first = linear.guards.first()?;
         let transition = frame.shape.transition(structure, &frame.normal, from, *time);
         let start = frame.shape.flow(structure, &frame.normal, from);
-        let through = linear.reset.times(&transition);
+        let mut through = linear.reset.times(&transition);
+        // nothing jumps at a touch
+        let touched = event.touches(&from.states).then(|| through.clone());
+        let beside: Vec<&LinearGuard> = flight
+            .beside
+            .iter()
+            .filter_map(|own| linear.guards.get(flight.guards.iter().position(|g| *g == own.guard)?))
+            .collect();
+        let changes: Vec<Vec<f64>> = beside.iter().map(|own| transition.apply_transposed(&own.gradient)).collect();
+        for j in (0..size).filter(|_| !beside.is_empty()) {
+            let gaps: Vec<f64> = changes.iter().map(|change| change[j]).collect();
+            for (i, moved) in moved_onto(&flight.beside, frame, &gaps).into_iter().enumerate() {
+                through[(i, j)] += moved;
+            }
+        }
         let guarded = transition.apply_transposed(&first.gradient);
         let mut left = Matrix::zeros(size + 1, size + 1);
         // an earlier beginning at the same state: the flow at the beginning, carried to the end
@@ -119,7 +193,9 @@ impl MachineRing {
         left.row_mut(0)[1..].copy_from_slice(&guarded);
         let carried = through.apply(&start);
         // a later end at the same beginning: the flow there through the event, and the rate of the reset
-        let ended = linear.reset.apply(&linear.flow_before);
+        let mut ended = linear.reset.apply(&linear.flow_before);
+        let rates: Vec<f64> = beside.iter().map(|own| own.rate).collect();
+        add_scaled(&mut ended[..frame.shape.n], 1.0, &moved_onto(&flight.beside, frame, &rates));
         let mut late = vec![first.rate / frequency];
         for i in 0..size {
             left[(i + 1, 0)] = -carried[i] / frequency;
@@ -136,12 +212,7 @@ impl MachineRing {
             frame.normal.translations.remove_from_columns(&mut left, 1);
             frame.normal.translations.remove(&mut late[1..]);
         }
-        // nothing jumps at a touch
-        let step = if event.touches(&from.states) {
-            Some(through)
-        } else {
-            linear.saltation().map(|saltation| saltation.times(&transition))
-        };
+        let step = touched.or_else(|| Some(linear.saltation()?.times(&transition)));
         Some(MachineBlock { miss, left, late, step })
     }
 
@@ -174,8 +245,12 @@ impl RingFlight<'_> {
         if self.divisor == self.time {
             guard -= law.value(&frame.normal, &self.before) * by.duration(self.time) / (self.time * self.time);
         }
+        let gap = |own: &Beside| by.guard(&self.timed_by(&[own.guard]), &self.before, &flown);
+        let gaps: Vec<f64> = self.beside.iter().map(gap).collect::<Option<_>>()?;
+        let moved = moved_onto(&self.beside, frame, &gaps);
         let summed = |j: usize| self.event.pushed.iter().any(|(of, summed)| *of == j && *summed);
-        let after = by.after(&law, &summed, (&self.before, &self.after), flown)?;
+        let mut after = by.after(&law, &summed, (&self.before, &self.after), flown)?;
+        add_scaled(&mut after.x, 1.0, &moved);
         let surfaces = frame.shape.surfaces.iter().map(|j| after.surfaces[*j]);
         let mut slopes: Vec<f64> = core::iter::once(guard).chain(after.x).chain(after.v).chain(surfaces).collect();
         if self.drifts {

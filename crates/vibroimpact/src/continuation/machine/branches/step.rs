@@ -113,12 +113,18 @@ impl EventBranch {
                 self.end(&at, BranchEvent::EndOfRange);
                 return false;
             }
+            Some(PACE) if crossing(step, PLUS_ONE).is_some() => return true,
             Some(PACE) => {
-                if crossing(step, PLUS_ONE).is_none()
-                    && let Some(at) = self.halving(step, s)
-                {
+                if let Some(at) = self.halving(step, s) {
                     self.end(&at, BranchEvent::Halving);
                     return false;
+                }
+                // of a machine twice beside itself two multipliers pass 1, and their product does not change its sign
+                match self.located(step, s, BranchEvent::Fold) {
+                    Some(at) if off_circle(&at.known.multipliers, BranchEvent::Fold) < NEARBY => {
+                        self.add(&at, Some(BranchEvent::Fold));
+                    }
+                    _ => {}
                 }
                 return true;
             }

@@ -1,0 +1,57 @@
+//! `vibro edge`: the border between two motions, and the saddle on it.
+
+use crate::{S, json, vibro};
+
+fn said(line: &str) -> String {
+    String::from_utf8(vibro(line).output().unwrap().stdout).unwrap()
+}
+
+fn names(of: &serde_json::Value) -> Vec<&String> {
+    of.as_object().unwrap().keys().collect()
+}
+
+/// The oscillator, the machine that it is, and that machine beside another body have one saddle, and their answers the same keys.
+#[test]
+fn one_saddle_for_every_system() {
+    let own = json(&format!("edge {S} --other x=-2"));
+    let saddle = &own["saddle"];
+    assert_eq!((&saddle["label"], &saddle["stability"]), (&"2/1".into(), &"unstable".into()), "{saddle}");
+    assert_eq!((&own["sides"][0]["label"], &own["sides"][1]["label"]), (&"2/1".into(), &"1/1".into()));
+    let of_machine = json("edge --machine fukaya-irie-1971 --other q.mass=-2");
+    let largest = |of: &serde_json::Value| of["saddle"]["multipliers"][0][0].as_f64().unwrap();
+    assert!((largest(&own) - largest(&of_machine)).abs() < 1e-8);
+    assert!((own["part"].as_f64().unwrap() - of_machine["part"].as_f64().unwrap()).abs() < 1e-8);
+    assert_eq!(names(&own["track"][0]), names(&of_machine["track"][0]));
+    // the same orbit as by Newton's method from many seeds
+    let orbits = json(&format!("orbit {S} --label 2/1"));
+    let found = orbits["orbits"].as_array().unwrap().iter().any(|orbit| {
+        orbit["stability"] == "unstable" && (orbit["multipliers"][0][0].as_f64().unwrap() - largest(&own)).abs() < 1e-9
+    });
+    assert!(found, "{orbits}");
+    // a machine of two coordinates
+    let chain = json("edge --machine chain --other q.first=-1.18,qdot.first=-0.18");
+    assert_eq!(chain["saddle"]["stability"], "unstable", "{}", chain["saddle"]);
+}
+
+#[test]
+fn text_table_and_refusals() {
+    let text = said(&format!("edge {S} --other x=-2"));
+    for words in ["border between 2/1 and 1/1, at 0.1915768", "2/1: two impacts", "unstable; multipliers 2.0479"] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    let table = said(&format!("edge {S} --other x=-2 --csv -"));
+    assert!(table.starts_with("time,x,v,phase,apart\n0,-0.38315362"), "{table}");
+    for (line, words) in [
+        (format!("edge {S} --other x=0.1"), "both starts lead to the same motion, 2/1"),
+        (format!("edge {S} --other x=2"), "beyond"),
+        (format!("edge {S} --other gap=2"), "gap"),
+        (format!("edge {S} --other q.mass=2"), "q.mass"),
+        (format!("edge {S} --other x"), "NAME=VALUE"),
+        (format!("edge {S} --other phase=1"), "phases"),
+        ("edge --machine chain --other q.third=1".to_owned(), "q.third"),
+    ] {
+        let output = vibro(&line).output().unwrap();
+        let complaint = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && complaint.contains(words), "{line}: {complaint}");
+    }
+}
