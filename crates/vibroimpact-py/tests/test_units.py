@@ -21,9 +21,9 @@ def test_f08_a_gap_of_a_machine_is_given_in_metres() -> None:
     assert MACHINE.replace(gap=0.8, units=None) == PLAIN.replace(gap=0.8)
     assert MACHINE.replace(beta=1.5, restitution=0.6).units == MACHINE.units
     for changes, sentence in (
-        ({"gap": 0.004}, "gap = 0.004 of a machine may be meant in F/k or in m\nhint: gap_m"),
-        ({"second_gap": 0.004}, "second_gap = 0.004 of a machine may be meant"),
-        ({"damping": 1.5}, "damping = 1.5 of a machine may be meant as a ratio or in N s/m"),
+        ({"gap": 0.004}, "gap = 0.004 of a body may be meant in F/k or in m\nhint: gap_m"),
+        ({"second_gap": 0.004}, "second_gap = 0.004 of a body may be meant"),
+        ({"damping": 1.5}, "damping = 1.5 of a body may be meant as a ratio or in N s/m"),
         ({"gap": 1, "gap_m": 0.005}, "one parameter, and both are given"),
     ):
         with pytest.raises(vi.QuestionError, match=sentence.replace("(", r"\(")):
@@ -67,7 +67,7 @@ def test_f08b_datasets_keep_the_units_of_a_machine(name: str, ask: Callable[...,
         si.vibro.si()
     ax = si.vibro.plot()
     assert ax.get_ylabel().endswith((" (m/s)", " (m)", "$")) and ("(m)" in ax.get_xlabel() or r"$\beta$" in ax.get_xlabel())
-    with pytest.raises(vi.QuestionError, match="no units of a machine"):
+    with pytest.raises(vi.QuestionError, match="no units of a body"):
         plain.vibro.si()  # type: ignore[attr-defined]
     # a store keeps the units
     stored = ask(MACHINE, store=tmp_path / "s.zarr").load()  # type: ignore[attr-defined]

@@ -25,7 +25,7 @@ _BODY = {
 #: Keywords of `replace` that may be meant in two units for a body: in both, and what helps.
 _AMBIGUOUS = {
     "gap": ("in F/k", "m", "gap_m=... takes metres"), "second_gap": ("in F/k", "m", "second_gap_m=... takes metres"),
-    "damping": ("as a ratio", "N s/m", "make the machine anew with Oscillator.from_units"),
+    "damping": ("as a ratio", "N s/m", "make the body anew with Oscillator.from_units"),
 }
 _NO_SECOND_GAP = "the second stop has a restitution but no gap\nhint: second_gap, its distance from the rest position"
 
@@ -302,7 +302,7 @@ class Oscillator(Questions):
         for name, (ours, theirs, hint) in _AMBIGUOUS.items():
             if self._units is not None and "units" not in changes and changes.get(name) is not None:
                 raise QuestionError(
-                    f"{name} = {changes[name]} of a machine may be meant {ours} or in {theirs}\n"
+                    f"{name} = {changes[name]} of a body may be meant {ours} or in {theirs}\n"
                     f"hint: {hint}; {name}=..., units=osc.units is nondimensional"
                 )
         return new

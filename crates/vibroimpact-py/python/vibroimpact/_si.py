@@ -38,7 +38,7 @@ def converted(ds: "xr.Dataset", units: Units | None) -> "xr.Dataset":
     if units is None:
         if any(key not in ds.attrs for key in _KEYS):
             raise QuestionError(
-                "this Dataset has no units of a machine\nhint: ds.vibro.si(osc.units), where osc comes from Oscillator.from_units"
+                "this Dataset has no units of a body\nhint: ds.vibro.si(osc.units), where osc comes from Oscillator.from_units"
             )
         length, time, mass = (float(ds.attrs[key]) for key in _KEYS)
         units = Units(length_m=length, time_s=time, mass_kg=mass)

@@ -18,7 +18,7 @@ use super::BodyNumber;
 use crate::{Parameter, PlanError};
 use core::f64::consts::TAU;
 use serde::{Deserialize, Deserializer, Serialize};
-use vibroimpact::machine::{MachineParts, Reduction};
+use vibroimpact::machine::{MachineParts, OneCoordinate, Reduction, RigidStop};
 use vibroimpact::math::{hypot, sin_cos};
 use vibroimpact::{OscillatorFamily, ParameterPath, ParameterPlane, SystemError};
 
@@ -291,6 +291,9 @@ impl Body {
         let unbalance = self.unbalance_kg_m.unwrap_or(0.0);
         let (mut re, mut im) = (self.force_n.unwrap_or(0.0) + unbalance * omega * omega, 0.0);
         let mut add = |(a, b): (f64, f64), (displacement, phase): Harmonic| {
+            if displacement == 0.0 {
+                return;
+            }
             let (sin, cos) = sin_cos(phase);
             // (a + ib) times the turn of the phase
             re += displacement * (a * cos - b * sin);
@@ -309,26 +312,42 @@ impl Body {
         (re, im)
     }
 
-    /// The machine that the body is, in the frame of its stop: `x` is the distance $`x - r`$ from its motion. Its numbers are not
-    /// checked.
+    /// The numbers of the machine that the body is, in the frame of its stop: the coordinate is the distance $`x - r`$ from its
+    /// motion. They are not checked.
     #[must_use]
-    pub fn parts(&self) -> MachineParts {
+    pub fn one_coordinate(&self) -> OneCoordinate {
         let [m, k, gap, e] =
             [self.mass_kg, self.stiffness_n_per_m, self.gap_m, self.restitution].map(|value| value.unwrap_or(f64::NAN));
         let c = self.damping_coefficient();
-        let (sin, cos) = self.drive((m, c, k));
-        let constant = self.constant_force_n.unwrap_or(0.0) + m * self.gravity_m_per_s2.unwrap_or(0.0);
-        let parts = MachineParts::new(["x"])
-            .with_mass(0, m)
-            .with_link(&[1.0], k, c)
-            .with_constant(0, constant)
-            .with_frequency(self.omega())
-            .with_force(0, 1, cos, sin)
-            .with_rigid_stop("upper", &[1.0], gap, e);
-        match self.second_gap_m {
-            Some(gap) => parts.with_rigid_stop("lower", &[-1.0], gap, self.second_restitution.unwrap_or(e)),
-            None => parts,
+        let at_rest =
+            |direction: f64, gap: f64, restitution: f64| RigidStop { direction, gap, restitution, motion: (0.0, 0.0) };
+        let second = |gap| at_rest(-1.0, gap, self.second_restitution.unwrap_or(e));
+        OneCoordinate {
+            mass: m,
+            damping: c,
+            stiffness: k,
+            constant: self.constant_force_n.unwrap_or(0.0) + m * self.gravity_m_per_s2.unwrap_or(0.0),
+            frequency: self.omega(),
+            force: self.drive((m, c, k)),
+            stops: [Some(at_rest(1.0, gap, e)), self.second_gap_m.map(second)],
         }
+    }
+
+    /// The same machine, with the coordinate `x` and the stops `upper` and `lower`.
+    #[must_use]
+    pub fn parts(&self) -> MachineParts {
+        let OneCoordinate { mass, damping, stiffness, constant, frequency, force: (sin, cos), stops } =
+            self.one_coordinate();
+        let parts = MachineParts::new(["x"])
+            .with_mass(0, mass)
+            .with_link(&[1.0], stiffness, damping)
+            .with_constant(0, constant)
+            .with_frequency(frequency)
+            .with_force(0, 1, cos, sin);
+        let named = ["upper", "lower"].into_iter().zip(stops.into_iter().flatten());
+        named.fold(parts, |parts, (name, stop)| {
+            parts.with_rigid_stop(name, &[stop.direction], stop.gap, stop.restitution)
+        })
     }
 
     /// The oscillator with the same motions, and its units.
@@ -344,11 +363,11 @@ impl Body {
             range: "0 < value < infinity",
             hint: "give a force, a moving base, an unbalance or a moving stop",
         };
-        let parts = self.parts();
-        if parts.forces.iter().all(|force| force.sin == [0.0] && force.cos == [0.0]) {
+        let numbers = self.one_coordinate();
+        if numbers.force == (0.0, 0.0) {
             return Err(nothing);
         }
-        let reduction = Reduction::of(&parts)?.ok_or(nothing)?;
+        let reduction = numbers.reduction()?.ok_or(nothing)?;
         // as it is given: its coefficient is rounded
         self.direct_ratio().map_or(Ok(reduction), |zeta| reduction.with_damping(zeta))
     }

@@ -8,7 +8,7 @@
 //! | a checked machine, its numbers by path | [`Machine`], `path` |
 //! | the derivatives of its numbers by another one | `rate` |
 //! | the contact of a mass with a spring and a damper, in closed form | [`SpringDamper`] |
-//! | the oscillator that a machine of one coordinate is | [`Machine::reduced`] |
+//! | the oscillator that a machine of one coordinate is | [`Machine::reduced`], [`OneCoordinate`] |
 
 mod checks;
 mod error;
@@ -24,7 +24,7 @@ pub use checks::MOST_COORDINATES;
 pub use error::{Fault, MachineError};
 pub use modal::modal_damping;
 pub use parts::{FrictionJoint, HarmonicForce, HarmonicMotion, ImpactLaw, MachineParts, Opening, Stop, StopLaw};
-pub use reduced::Reduction;
 pub(crate) use reduced::VariedReduction;
+pub use reduced::{OneCoordinate, Reduction, RigidStop};
 pub use spring_damper::SpringDamper;
 pub use value::Machine;
