@@ -281,7 +281,7 @@ impl<D: Told> AnswerOf<D> {
                     |found: &CountedMotion<D::System>| (found.verdict.label().into_owned(), census.share(found));
                 figure::bars::shares(&census.by_share().into_iter().map(share).collect::<Vec<_>>(), title(&[]))
             }
-            Results::Edge(found) => figure::edge::figure(self, found, title(&[])),
+            Results::Edge(found) => figure::edge::figure(self, found, &title(&[])),
             Results::Margins(found) => {
                 let varied: Vec<&str> = found.parameters.iter().map(|of| of.scope.parameter.text()).collect();
                 let title = [title(&varied), figure::label(&found.motion.label())].join(": ");

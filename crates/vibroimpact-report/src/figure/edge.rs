@@ -10,7 +10,7 @@ const STATE: f64 = 6.0;
 const LAST: f64 = 9.0;
 
 /// The figure of `vibro edge`.
-pub(crate) fn figure<D: Told>(of: &AnswerOf<D>, found: &Edge<D::System>, title: String) -> Figure {
+pub(crate) fn figure<D: Told>(of: &AnswerOf<D>, found: &Edge<D::System>, title: &str) -> Figure {
     let states: Vec<(f64, f64)> = found
         .track
         .iter()
