@@ -36,7 +36,7 @@ pub(crate) use outputs::{Files, OutputArgs};
 pub(crate) use overlay::OverlayArgs;
 pub(crate) use parameter_flag::{ParameterFlag, Varied, varied};
 pub(crate) use plane::{BranchEnds, Ends, Interval, Named, Value, VariedNamed, VariedOver, place};
-pub(crate) use question::{AskedSystem, Question};
+pub(crate) use question::{AskedSystem, Question, StartedArgs};
 pub(crate) use ranged::{Ranged, axis_values};
 pub(crate) use ranged_system::RangedSystemArgs;
 pub(crate) use start::StartArgs;

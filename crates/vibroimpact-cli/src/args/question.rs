@@ -1,9 +1,12 @@
 //! The system of a command, an oscillator or a machine, and the question about it.
 
-use super::{ColourArgs, FieldsArgs, MachineArgs, StartArgs, StartOfMachineArgs, StoreArgs, StudyAxesArgs, Varied};
+use super::{
+    ColourArgs, FieldsArgs, MachineArgs, StartArgs, StartOfMachineArgs, StoreArgs, StudyAxesArgs, SystemArgs, Varied,
+};
 use super::{Interval, VariedNamed};
 use crate::args::plane::{Ends, Value};
 use crate::failure::Failure;
+use clap::Args;
 use vibroimpact_report::{Asked, Units};
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{Axis, Plan, StartPlan, Stretch, Target, Task, Variable};
@@ -22,6 +25,41 @@ pub(crate) struct Question<'a> {
     pub(crate) plan: Plan,
     pub(crate) units: Units,
     pub(crate) machine: Option<&'a str>,
+}
+
+/// A system, and the start of a motion.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct StartedArgs {
+    #[command(flatten)]
+    system: SystemArgs,
+    #[command(flatten)]
+    start: StartArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    of_machine: StartOfMachineArgs,
+}
+
+impl StartedArgs {
+    /// The system, and the start of an oscillator, which is a part of the task.
+    pub(crate) fn asked(&self) -> Result<(AskedSystem<'_>, Option<StartPlan>), Failure> {
+        self.asked_as(|| self.system.asked())
+    }
+
+    /// The same, with the oscillator that is made so.
+    pub(crate) fn asked_as(
+        &self,
+        oscillator: impl FnOnce() -> Result<Asked, Failure>,
+    ) -> Result<(AskedSystem<'_>, Option<StartPlan>), Failure> {
+        let system = self.machine.or_oscillator(Some((&self.of_machine, self.start.phase)), oscillator)?;
+        let start = system.start(&self.start);
+        Ok((system, start))
+    }
+
+    /// The numbers of the oscillator.
+    pub(crate) const fn system(&self) -> &SystemArgs {
+        &self.system
+    }
 }
 
 impl MachineArgs {

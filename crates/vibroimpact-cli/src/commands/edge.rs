@@ -1,6 +1,6 @@
 //! `vibro edge`: the border between the starts of two motions, and the saddle on it.
 
-use crate::args::{MachineArgs, OutputArgs, StartArgs, StartOfMachineArgs, SystemArgs, number, whole};
+use crate::args::{OutputArgs, StartedArgs, number, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -30,13 +30,7 @@ use vibroimpact_study::{Coordinate, EdgePlan, Name, PlacePlan, PlanError, Variab
 )]
 pub(crate) struct Edge {
     #[command(flatten)]
-    system: SystemArgs,
-    #[command(flatten)]
-    start: StartArgs,
-    #[command(flatten)]
-    machine: MachineArgs,
-    #[command(flatten)]
-    of_machine: StartOfMachineArgs,
+    of: StartedArgs,
 
     /// In what the second start differs from the first: x or v, of a machine q.NAME or qdot.NAME; several separated by commas
     #[arg(long, value_delimiter = ',', value_parser = place, value_name = "NAME=VALUE", required = true, allow_hyphen_values = true, help_heading = "Start")]
@@ -61,9 +55,8 @@ fn place(text: &str) -> Result<(String, f64), String> {
 }
 
 pub(super) fn run(args: &Edge, session: &Session) -> Result<(), Failure> {
-    let start = Some((&args.of_machine, args.start.phase));
-    let system = args.machine.or_oscillator(start, || args.system.asked())?;
-    let (units, start) = (system.units(), system.start(&args.start));
+    let (system, start) = args.of.asked()?;
+    let units = system.units();
     let other = args.other.iter().map(|(name, value)| {
         if system.is_machine() {
             return Ok(PlacePlan { coordinate: Variable::Path(name.clone()), value: *value });

@@ -1,8 +1,6 @@
 //! `vibro lyapunov`: the Lyapunov exponents of a motion, and sections of its attractor.
 
-use crate::args::{
-    MachineArgs, OutputArgs, StartArgs, StartOfMachineArgs, StoreArgs, StudyAxesArgs, SystemArgs, whole,
-};
+use crate::args::{OutputArgs, StartedArgs, StoreArgs, StudyAxesArgs, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -39,13 +37,7 @@ use vibroimpact_study::{Axis, Coordinate, DEFAULT_POINTS, LyapunovPlan, Variable
 )]
 pub(crate) struct Lyapunov {
     #[command(flatten)]
-    system: SystemArgs,
-    #[command(flatten)]
-    start: StartArgs,
-    #[command(flatten)]
-    machine: MachineArgs,
-    #[command(flatten)]
-    of_machine: StartOfMachineArgs,
+    of: StartedArgs,
 
     #[command(flatten)]
     axes: StudyAxesArgs,
@@ -92,14 +84,13 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
         }));
     }
     let points = shown.then(|| args.points.unwrap_or(DEFAULT_POINTS));
-    let start = Some((&args.of_machine, args.start.phase));
-    let system = args.machine.or_oscillator(start, || args.system.asked())?;
+    let (system, start) = args.of.asked()?;
     let axes = system.axes(&args.axes)?;
     let measured = |axis: &Axis<Variable>| matches!(axis.vary, Variable::Coordinate(Coordinate::X | Coordinate::V));
     if system.units().plan().is_some() && axes.iter().any(measured) {
         return Err(Failure::bad("an axis of x or v is nondimensional\nhint: without --units si"));
     }
-    let (start, impacts, transient) = (system.start(&args.start), args.impacts, args.transient);
+    let (impacts, transient) = (args.impacts, args.transient);
     let task = LyapunovPlan { axes, start, impacts, transient, points };
     let store = study.then_some(&args.store);
     let question = system.stored(task, store)?;

@@ -1,9 +1,6 @@
 //! `vibro margins`: how far a periodic motion is from the events that end or change it.
 
-use crate::args::{
-    MachineArgs, Named, OutputArgs, ParameterFlag, StartArgs, StartOfMachineArgs, SystemArgs, Varied, VariedNamed,
-    number, varied, whole,
-};
+use crate::args::{Named, OutputArgs, ParameterFlag, StartedArgs, Varied, VariedNamed, number, varied, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -44,13 +41,7 @@ use vibroimpact_study::{DEFAULT_LINES, DEFAULT_WITHIN, MarginsPlan, Parameter, S
 )]
 pub(crate) struct Margins {
     #[command(flatten)]
-    system: SystemArgs,
-    #[command(flatten)]
-    start: StartArgs,
-    #[command(flatten)]
-    machine: MachineArgs,
-    #[command(flatten)]
-    of_machine: StartOfMachineArgs,
+    of: StartedArgs,
 
     /// m/n of the motion instead of a start: the stable orbit, else the fastest one
     #[arg(long, value_name = "m/n", allow_hyphen_values = true, help_heading = "Margins")]
@@ -93,13 +84,12 @@ pub(super) fn run(args: &Margins, session: &Session) -> Result<(), Failure> {
         vary = varied.into_iter().map(name).collect();
         Ok(asked)
     };
-    let system = args.machine.or_oscillator(Some((&args.of_machine, args.start.phase)), oscillator)?;
+    let (system, start) = args.of.asked_as(oscillator)?;
     let path = |varied: &Varied| ScaledParameter { parameter: Variable::Path(varied.path()), scale: None };
     let machine = system.is_machine();
     if machine {
         vary = args.vary.iter().map(path).collect();
     }
-    let start = system.start(&args.start);
     if args.label.is_some() && start.is_some_and(|start| start != StartPlan::default()) {
         return Err(Failure::bad("--label cannot go together with a start\nhint: --label, or --x, --v and --phase"));
     }
@@ -113,8 +103,8 @@ pub(super) fn run(args: &Margins, session: &Session) -> Result<(), Failure> {
 impl Margins {
     /// The system with its units, and the parameters that vary; none stands for all.
     fn varied(&self) -> Result<(Asked, Vec<ScaledParameter>), Failure> {
-        let body = self.system.is_body();
-        let asked = if body { self.system.in_si().asked()? } else { self.system.asked()? };
+        let body = self.of.system().is_body();
+        let asked = if body { self.of.system().in_si().asked()? } else { self.of.system().asked()? };
         let known = MarginsPlan::parameters(&asked.system);
         let vary = self.vary.iter().map(Varied::parameter).collect::<Result<Vec<ParameterFlag>, Failure>>()?;
         let scales = self.scale.iter().map(VariedNamed::of_oscillator).collect::<Result<Vec<Named<f64>>, Failure>>()?;

@@ -1,6 +1,6 @@
 //! `vibro settle`: the motion from one start after its transient.
 
-use crate::args::{MachineArgs, OutputArgs, StartArgs, StartOfMachineArgs, SystemArgs, number, whole};
+use crate::args::{OutputArgs, StartedArgs, number, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -36,13 +36,7 @@ use vibroimpact_study::Task;
 )]
 pub(crate) struct Settle {
     #[command(flatten)]
-    system: SystemArgs,
-    #[command(flatten)]
-    start: StartArgs,
-    #[command(flatten)]
-    machine: MachineArgs,
-    #[command(flatten)]
-    of_machine: StartOfMachineArgs,
+    of: StartedArgs,
 
     /// Budget of impacts for the motion, 1 to 1000000; what is not settled by then is undecided [default: 20000]
     #[arg(long, value_parser = whole::<u32>, value_name = "N", allow_hyphen_values = true, help_heading = "Start")]
@@ -102,12 +96,10 @@ enum Rule {
 }
 
 pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
-    let start = Some((&args.of_machine, args.start.phase));
-    let system = args.machine.or_oscillator(start, || args.system.asked())?;
+    let (system, start) = args.of.asked()?;
     if system.is_machine() && args.rule == Rule::Paper {
         return Err(Failure::bad("--rule paper is for oscillators: the paper has no machines"));
     }
-    let start = system.start(&args.start);
     let question = system.question(Task::Settle { start, impacts: args.impacts })?;
     let rule = args.paper_rule()?;
     let shown = args.look()?;

@@ -1,6 +1,6 @@
 //! `vibro simulate`: the events of a motion.
 
-use crate::args::{MachineArgs, OutputArgs, StartArgs, StartOfMachineArgs, SystemArgs, number, whole};
+use crate::args::{OutputArgs, StartedArgs, number, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -33,13 +33,7 @@ use vibroimpact_study::Task;
 )]
 pub(crate) struct Simulate {
     #[command(flatten)]
-    system: SystemArgs,
-    #[command(flatten)]
-    start: StartArgs,
-    #[command(flatten)]
-    machine: MachineArgs,
-    #[command(flatten)]
-    of_machine: StartOfMachineArgs,
+    of: StartedArgs,
 
     /// Stop after this number of impacts, 1 to 10000000 [default: 100, or 1000000 with --periods]
     #[arg(long, value_parser = whole::<u64>, value_name = "N", allow_hyphen_values = true, help_heading = "Length")]
@@ -58,9 +52,8 @@ pub(crate) struct Simulate {
 }
 
 pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
-    let start = Some((&args.of_machine, args.start.phase));
-    let system = args.machine.or_oscillator(start, || args.system.asked())?;
-    let (start, time) = (system.start(&args.start), system.units().time());
+    let (system, start) = args.of.asked()?;
+    let time = system.units().time();
     let question = system.question(Task::Simulate { start, impacts: args.impacts, periods: args.periods })?;
     let step = checked(args.step.map(|step| step / time))?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
