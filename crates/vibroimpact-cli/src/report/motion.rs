@@ -9,12 +9,13 @@ use crate::report::{basin, lyapunov, margins, orbit, region, settle, simulate};
 use core::fmt::Write;
 use vibroimpact::chaos::{Exponents, Measured, Spectrum};
 use vibroimpact::continuation::{SolutionPoint, machine};
-use vibroimpact::events::{End, Event, EventKind, Limits};
+use vibroimpact::events::{End, Event, EventKind};
 use vibroimpact::machine::{Machine, StopLaw};
 use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::quantities::machine::{Part, Quantities as PartQuantities};
 use vibroimpact::quantities::{Quantity, machine_cycle_quantities, machine_quantities, of_verdict};
+use vibroimpact::verdict::machine::longest_flight;
 use vibroimpact::verdict::{Count, Settled, StartBox, Undecided, UndecidedCause, Verdict};
 use vibroimpact_report::json::branch::Event as BranchEvent;
 use vibroimpact_report::json::undecided;
@@ -258,7 +259,7 @@ impl Teller for MachineSource {
         drift + &found.map_or_else(String::new, |found| quantities(&of.system, &found))
     }
 
-    fn grounds(_: &AnswerOf<Self>, verdict: &Verdict<Machine>) -> String {
+    fn grounds(of: &AnswerOf<Self>, verdict: &Verdict<Machine>) -> String {
         match verdict {
             Verdict::Periodic(cycle) => {
                 format!("Newton's method on its events returns to itself within {:.0e}", cycle.residual.max(1e-16))
@@ -274,7 +275,7 @@ impl Teller for MachineSource {
                 let why = match why {
                     UndecidedCause::Budget => "the budget is used up".to_owned(),
                     UndecidedCause::Ended(End::NoEventWithin) => {
-                        let time = short(Limits::default().time);
+                        let time = short(longest_flight(&of.system));
                         format!("no event within a time of {time} after the last one, and none is excluded later")
                     }
                     why => undecided(*why).replace('_', " "),

@@ -95,6 +95,28 @@ fn a14_tables_have_states() {
     assert!(table.contains(",closed,open,") && table.contains(",forward\n"), "{table}");
 }
 
+/// A fast oscillation beside a slow one: the next impact is farther away than the search goes. What is known is printed, and the
+/// exit status is 1; a verdict says how far it looked.
+#[test]
+fn a13_a_search_limit_is_an_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("fast.toml");
+    let machine = "[machine]\ncoordinates = [\"fast\", \"slow\"]\nmass = [1, 1]\nstiffness = [1e14, 1]\n[[machine.stop]]\n\
+        name = \"stop\"\ndirection = [1, 1]\ngap = 0.5\nrestitution = 0.5\n";
+    fs::write(&file, machine).unwrap();
+    let line = |verb: &str| format!("{verb} --machine {} --q 0.1,0 --qdot 0,0.45", file.display());
+    let output = vibro(&line("simulate")).output().unwrap();
+    let (text, complaint) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert_eq!(output.status.code(), Some(1), "{text} {complaint}");
+    assert!(
+        text.contains("ran out of steps") && complaint.contains("hint: numbers that lie many orders"),
+        "{complaint}"
+    );
+    let settled = String::from_utf8(vibro(&line("settle")).output().unwrap().stdout).unwrap();
+    // 10 000 radians of the mode with stiffness 1e14, beside which a stiffness of 1 is none
+    assert!(settled.contains("no event within a time of 0.001 after the last one"), "{settled}");
+}
+
 /// Contacts that do not agree with a start, states that are none, and machines that are none.
 #[test]
 fn a13_what_is_refused() {

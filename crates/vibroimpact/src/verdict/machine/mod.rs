@@ -23,5 +23,5 @@ pub use outcome::State;
 pub(crate) use reduced::Reduced;
 pub(crate) use returns::{Recorded, Step};
 pub(crate) use settle::settle_as;
-pub use settle::{settle_machine, settle_machine_while, settle_unreduced};
+pub use settle::{longest_flight, settle_machine, settle_machine_while, settle_unreduced};
 pub use starts::scattered_machine_starts;

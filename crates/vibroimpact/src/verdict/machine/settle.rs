@@ -51,6 +51,13 @@ pub fn settle_machine(
     unstopped(settle_machine_while(machine, start, options, &|| true))
 }
 
+/// The longest flight of a machine that is searched for a verdict: 10 000 radians of the forcing, without forcing of the slowest
+/// mode with all stops open. Of free bodies it is a time of 10 000.
+#[must_use]
+pub fn longest_flight(machine: &Machine) -> f64 {
+    MachineFrame::new(machine).limits().time
+}
+
 /// The same, but stopped when `go_on` returns false, and then `None`. `go_on` is called at every step.
 ///
 /// # Errors
