@@ -72,6 +72,9 @@ fn is_of_the_text(line: &str) -> bool {
     line.split_once(" |").is_some_and(|(number, _)| number.trim().is_empty() || number.parse::<u32>().is_ok())
 }
 
+/// Words of the program that say nothing to a user.
+const INSIDE: [&str; 6] = ["f64", "u32", "struct ", "variant", "WrittenMachine", "Option<"];
+
 /// One sentence with a path or a place; the lines after it are the line of the text and hints.
 fn is_explained(told: &str) -> bool {
     let mut lines = told.lines();
@@ -83,7 +86,7 @@ fn is_explained(told: &str) -> bool {
         && (counted || !path.contains(char::is_whitespace))
         && first.chars().count() < 600
         && lines.all(|line| line.starts_with("hint: ") || is_of_the_text(line))
-        && !["f64", "u32", "struct ", "variant", "WrittenMachine", "Option<"].iter().any(|inside| told.contains(inside))
+        && told.lines().filter(|line| !is_of_the_text(line)).all(|line| !INSIDE.iter().any(|word| line.contains(word)))
 }
 
 /// Found at random: the machine was accepted, and its expansion was not.
