@@ -16,7 +16,7 @@
 //! | the numbers of a table by path | `written` |
 //! | modes from a table of numbers | `modes` |
 //! | some of its numbers varied | `varied` |
-//! | a body in SI units, which is a machine of one coordinate by other names; its numbers | [`Body`](crate::Body), [`BodyNumber`](crate::BodyNumber) |
+//! | a body in SI units, which is a machine of one coordinate by other names; its numbers | [`Body`], [`BodyNumber`] |
 //! | where a machine begins | [`StartText`], [`StartNumbers`], `start`, `start_axis`, `starting` |
 //! | named machines of the literature | [`CATALOGUE`], `catalogue` |
 //! | errors | [`MachineFileError`], [`MachineProblem`] |
