@@ -49,6 +49,8 @@ fn examples_run_in_an_empty_folder() {
         "map",
         "diagram",
         "lyapunov",
+        "edge",
+        "contact",
     ] {
         // the table of the user
         fs::write(folder.path().join("systems.csv"), "inverse_beta,gap\n1.3,0.75\n1.8,0.25\n").unwrap();
