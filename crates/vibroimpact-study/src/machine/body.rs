@@ -157,7 +157,7 @@ impl Body {
         self.stop_displacement_m.is_some() || self.stop_in_space
     }
 
-    /// The same in the one form in which it is [stored](Self::stored).
+    /// The same in the one form in which it is stored.
     ///
     /// # Errors
     /// [`PlanError::Missing`] names all numbers that are absent; [`PlanError::TwoForms`] names two forms of one
