@@ -11,6 +11,9 @@ use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{System, Verdict};
 use vibroimpact_study::{Basin, PlanError};
 
+/// Bytes of an ordinary row.
+const ROW: usize = 64;
+
 /// The table of `vibro basin`: what varies, in the units and with exactly the numbers of the question, the label, and the quantities
 /// that the plan asks for. `remarks` returns what is said of a start beside its label.
 fn rows_of_starts<'a, S: System, V: Varied, F: FieldName>(
@@ -29,15 +32,26 @@ fn rows_of_starts<'a, S: System, V: Varied, F: FieldName>(
         finite(&fields.iter().enumerate().map(value).collect::<Vec<_>>())
     };
     let quantities: Vec<String> = found.quantities.iter().map(cells).collect();
+    // the label of each motion once, because a basin has millions of starts and few motions
+    let labels: Vec<String> = found.motions.iter().map(|motion| motion.verdict.label().into_owned()).collect();
     let rows = (0..found.cells.len()).map(move |k| {
         let mut rest = k;
-        let mut row = String::new();
+        let mut row = String::with_capacity(ROW);
         for values in &texts {
             row.push_str(&values[rest % values.len()]);
             rest /= values.len();
         }
-        let own = found.motion(k).map_or_else(|| ",".repeat(fields.len()), |number| quantities[number].clone());
-        row + &found.label(k) + &remarks(k) + &own
+        let motion = found.motion(k);
+        match motion {
+            Some(number) => row.push_str(&labels[number]),
+            None => row.push_str(&found.label(k)),
+        }
+        row.push_str(&remarks(k));
+        match motion {
+            Some(number) => row.push_str(&quantities[number]),
+            None => (0..fields.len()).for_each(|_| row.push(',')),
+        }
+        row
     });
     let varied = axes.iter().map(|axis| axis.vary.column(units).to_owned());
     let own = ["label"].into_iter().chain(heads).map(str::to_owned);
