@@ -33,7 +33,7 @@ pub(crate) struct Edge {
     of: StartedArgs,
 
     /// In what the second start differs from the first: x or v, of a machine q.NAME or qdot.NAME; several separated by commas
-    #[arg(long, value_delimiter = ',', value_parser = place, value_name = "NAME=VALUE", required = true, allow_hyphen_values = true, help_heading = "Start")]
+    #[arg(long, value_delimiter = ',', value_parser = place, value_name = "NAME=VALUE", required = true, allow_hyphen_values = true, help_heading = "Border")]
     other: Vec<(String, f64)>,
 
     /// Forcing periods for which the motion on the border is followed at most, 1 to 10000 [default: 200]
