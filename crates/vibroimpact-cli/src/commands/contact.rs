@@ -113,9 +113,7 @@ impl Contact {
             let contact = match (self.restitution, self.damping_ns_per_m, self.damping_ratio) {
                 (Some(restitution), ..) => SpringDamper::with_restitution(mass, stiffness, restitution, opening),
                 (_, Some(damping), _) => SpringDamper::new(mass, stiffness, damping, opening),
-                (.., Some(ratio)) => {
-                    SpringDamper::new(mass, stiffness, 2.0 * ratio * (stiffness * mass).sqrt(), opening)
-                }
+                (.., Some(ratio)) => SpringDamper::with_damping_ratio(mass, stiffness, ratio, opening),
                 _ => {
                     return Err(Failure::bad(
                         "what does the contact lose?\nhint: --restitution, --damping-ns-per-m or --damping-ratio",

@@ -3,7 +3,7 @@
 use crate::report::motion::Teller;
 use crate::report::words;
 use core::fmt::Write;
-use vibroimpact::edge::Edge;
+use vibroimpact::edge::{Bordered as _, Edge};
 use vibroimpact_report::AnswerOf;
 use vibroimpact_report::number::{precise, short};
 use vibroimpact_study::counted;
@@ -46,7 +46,7 @@ pub(crate) fn text<D: Teller>(of: &AnswerOf<D>, found: &Edge<D::System>) -> Stri
             "  last state on it: q = {}, qdot = {}, phase {}, known to {}",
             numbers(&q),
             numbers(&qdot),
-            short(last.phase),
+            short(of.system.phase(&last.state)),
             short(last.apart)
         );
     }

@@ -4,7 +4,7 @@ use super::motion::MotionObject;
 use crate::answer::{AnswerOf, Told};
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::edge::Edge;
+use vibroimpact::edge::{Bordered as _, Edge};
 
 /// The answer to `vibro edge`.
 #[derive(JsonSchema, Serialize)]
@@ -35,7 +35,13 @@ impl<'a> EdgeAnswer<'a> {
     pub(crate) fn new<D: Told>(of: &'a AnswerOf<D>, found: &'a Edge<D::System>) -> Self {
         let track = found.track.iter().map(|point| {
             let (q, qdot) = D::numbers(of, &point.state);
-            TrackObject { time: point.time * of.units.time(), q, qdot, phase: point.phase, apart: point.apart }
+            TrackObject {
+                time: point.time * of.units.time(),
+                q,
+                qdot,
+                phase: of.system.phase(&point.state),
+                apart: point.apart,
+            }
         });
         Self {
             sides: found.sides.each_ref().map(|side| D::motion(of, side)),

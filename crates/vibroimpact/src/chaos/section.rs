@@ -1,7 +1,7 @@
 //! Points of the attractor: its impacts, and its states once in every forcing period.
 
 use super::ExponentOptions;
-use crate::motion::{EventKind, ImpactState, MAX_TOUCHES, Motion, Strobes};
+use crate::motion::{ImpactState, MAX_TOUCHES, Motion, Strobes};
 use crate::system::{Oscillator, Start};
 
 /// The points of a motion in the two sections, in the order of time.
@@ -65,9 +65,9 @@ fn impacts(osc: &Oscillator, start: Start, most_steps: u64) -> impl Iterator<Ite
             if motion.steps() > most_steps {
                 return None;
             }
-            let event = motion.next()?;
-            if let EventKind::Impact { velocity_before: velocity, .. } = event.kind {
-                return Some(ImpactState { phase: event.phase, velocity, side: event.side });
+            let arrival = motion.next()?.arrival();
+            if arrival.is_some() {
+                return arrival;
             }
         }
         None

@@ -1,11 +1,10 @@
 //! The border between two motions of a machine.
 
-use super::track::{Bordered, EdgeError, SAME_PHASE};
-use crate::events::{ContactStart, Limits, Motion, Place, Start};
+use super::track::{Bordered, EdgeError};
+use crate::events::{ContactStart, Limits, Motion, Place, Start, states_at};
 use crate::machine::Machine;
 use crate::orbit::machine::Cycle;
-use crate::orbit::{Count, MachineFrame, MachineLap, near_returns, passing};
-use crate::system::phase;
+use crate::orbit::{Count, MachineFrame, near_returns, passing};
 use crate::verdict::{SettleOptions, Verdict, settle_machine_while};
 use core::f64::consts::TAU;
 
@@ -57,21 +56,12 @@ impl Bordered for Machine {
         start.phase
     }
 
-    fn after(&self, start: &Start, time: f64) -> Option<Start> {
-        let frame = MachineFrame::new(self);
-        let end = MachineLap::fly(&frame, &place(self, start)?, time)?.end;
-        let phase = match self.parts().frequency {
-            Some(_) if Some(time) == self.period() => start.phase,
-            Some(frequency) => phase::advance(start.phase, frequency, time),
-            None => start.phase,
-        };
-        Some(Start { phase, exact: Vec::new(), ..end.start(self, &frame.normal) })
+    fn after(&self, start: &Start, (time, phase): (f64, f64)) -> Option<Start> {
+        let after = states_at(self, start, &[time]).ok()?.pop()??;
+        Some(Start { phase, ..after.start() })
     }
 
     fn distance(&self, one: &Start, other: &Start) -> f64 {
-        if phase::difference(one.phase, other.phase).abs() > SAME_PHASE {
-            return f64::INFINITY;
-        }
         let (Some(a), Some(b)) = (place(self, one), place(self, other)) else { return f64::INFINITY };
         let frame = MachineFrame::new(self);
         let (sizes, others) = (frame.sizes(&a), frame.sizes(&b));

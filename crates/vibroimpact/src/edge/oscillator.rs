@@ -1,9 +1,9 @@
 //! The border between two motions of an oscillator.
 
-use super::track::{Bordered, EdgeError, SAME_PHASE};
-use crate::motion::{Event, EventKind, ImpactState, Motion, states_at};
+use super::track::{Bordered, EdgeError};
+use crate::motion::{Event, ImpactState, Motion, states_at};
 use crate::orbit::{Cycle, cycle_distance, shoot};
-use crate::system::{Oscillator, Start, phase};
+use crate::system::{Oscillator, Start};
 use crate::verdict::{SettleOptions, Verdict, settle_while};
 
 /// The most impacts of a cycle that is looked for.
@@ -27,16 +27,11 @@ impl Bordered for Oscillator {
         start.phase
     }
 
-    fn after(&self, start: &Start, time: f64) -> Option<Start> {
-        let after = states_at(self, *start, &[time]).pop()??;
-        let phase = if time == self.period() { start.phase } else { phase::advance(start.phase, self.beta(), time) };
-        Some(Start { phase, ..after })
+    fn after(&self, start: &Start, (time, phase): (f64, f64)) -> Option<Start> {
+        Some(Start { phase, ..states_at(self, *start, &[time]).pop()?? })
     }
 
     fn distance(&self, one: &Start, other: &Start) -> f64 {
-        if phase::difference(one.phase, other.phase).abs() > SAME_PHASE {
-            return f64::INFINITY;
-        }
         let size = [one.x, one.v, other.x, other.v].into_iter().fold(0.0, |most: f64, of| most.max(of.abs()));
         let apart = (one.x - other.x).abs().max((one.v - other.v).abs());
         if apart == 0.0 { 0.0 } else { apart / size }
@@ -50,10 +45,10 @@ impl Bordered for Oscillator {
     /// A cycle that sticks is stable, so none of those is a saddle.
     fn cycles_near(&self, start: &Start, laps: u32) -> Vec<Cycle> {
         let until = self.period() * f64::from(laps);
-        let events: Vec<Event> =
-            Motion::new(self, *start).take_while(|event| event.time < until).take(IMPACTS).collect();
-        let struck: Option<Vec<ImpactState>> = events.iter().map(struck).collect();
-        let Some((first, count)) = struck.and_then(|all| Some((*all.first()?, u32::try_from(all.len()).ok()?))) else {
+        let events = Motion::new(self, *start).take_while(|event| event.time < until).take(IMPACTS);
+        let arrivals: Option<Vec<ImpactState>> = events.map(|event| event.arrival()).collect();
+        let arrivals = arrivals.unwrap_or_default();
+        let (Some(first), Ok(count)) = (arrivals.first().copied(), u32::try_from(arrivals.len())) else {
             return Vec::new();
         };
         shoot(self, first, count, laps).into_iter().collect()
@@ -64,15 +59,9 @@ impl Bordered for Oscillator {
     }
 
     fn passes(&self, cycle: &Cycle, start: &Start, distance: f64) -> bool {
-        let next = Motion::new(self, *start).next().and_then(|event| struck(&event));
+        let next = Motion::new(self, *start).next().and_then(|event: Event| event.arrival());
         next.is_some_and(|state| cycle.points.iter().any(|point| cycle_distance(&point.state, &state) <= distance))
     }
-}
-
-/// The state at an impact; `None` at another event.
-fn struck(event: &Event) -> Option<ImpactState> {
-    let EventKind::Impact { velocity_before, .. } = event.kind else { return None };
-    Some(ImpactState { phase: event.phase, velocity: velocity_before, side: event.side })
 }
 
 #[cfg(test)]

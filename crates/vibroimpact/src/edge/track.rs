@@ -7,7 +7,9 @@
 //! Newton's method is tried: the cycle to which the motion on the border leads is the saddle between the motions beside it.
 
 use crate::machine::MachineError;
+use crate::system::phase;
 use crate::verdict::{SettleOptions, System, Verdict};
+use core::f64::consts::TAU;
 use core::fmt::Debug;
 use thiserror::Error;
 
@@ -28,7 +30,7 @@ const FAR: f64 = 100.0;
 /// The most laps of a cycle that is looked for.
 const LONGEST: u32 = 24;
 /// States whose phases differ by less have the same phase.
-pub(super) const SAME_PHASE: f64 = 1e-9;
+const SAME_PHASE: f64 = 1e-9;
 /// Motions that differ by less are the same.
 const SAME: f64 = 1e-6;
 
@@ -47,11 +49,10 @@ pub trait Bordered: System {
     /// The phase of a state.
     fn phase(&self, start: &Self::Start) -> f64;
 
-    /// The state after a time; `None` if the motion is not known so far. States of one phase have one phase then, to the last bit.
-    fn after(&self, start: &Self::Start, time: f64) -> Option<Self::Start>;
+    /// The state after a time, with the phase that the forcing has then; `None` if the motion is not known so far.
+    fn after(&self, start: &Self::Start, at: (f64, f64)) -> Option<Self::Start>;
 
-    /// The distance of two states, relative to their sizes; infinite for different phases, and where other stops are closed or
-    /// other joints hold.
+    /// The distance of two states of one phase, relative to their sizes; infinite where other stops are closed or other joints hold.
     fn distance(&self, one: &Self::Start, other: &Self::Start) -> f64;
 
     /// The verdict on the motion from a start, until `go_on` returns false.
@@ -99,8 +100,6 @@ pub struct EdgePoint<S: Bordered> {
     pub time: f64,
     /// The state of the pair that leads to the first motion.
     pub state: S::Start,
-    /// Its phase.
-    pub phase: f64,
     /// The distance of the pair, relative to the size of its states: the border passes between them.
     pub apart: f64,
 }
@@ -190,8 +189,7 @@ pub fn edge_while<S: Bordered>(
     let mut saddle = None;
     for lap in 0..=options.laps {
         let apart = system.distance(&pair[0], &pair[1]);
-        let phase = system.phase(&pair[0]);
-        track.push(EdgePoint { time, state: pair[0].clone(), phase, apart });
+        track.push(EdgePoint { time, state: pair[0].clone(), apart });
         saddle = search.saddle(&track);
         if saddle.is_some() || lap == options.laps {
             break;
@@ -243,8 +241,12 @@ impl<S: Bordered> Search<'_, S> {
     fn later(&self, pair: &[S::Start; 2]) -> Option<([S::Start; 2], f64)> {
         let mut nearest: Option<([S::Start; 2], f64, f64)> = None;
         for k in 0..PARTS {
-            let time = self.system.lap() * (1.0 + f64::from(k) / f64::from(PARTS));
-            let [Some(low), Some(high)] = pair.each_ref().map(|state| self.system.after(state, time)) else { continue };
+            let part = f64::from(k) / f64::from(PARTS);
+            let time = self.system.lap() * (1.0 + part);
+            // one computation for both, so that they have one phase to the last bit; after a whole lap it is the same again
+            let turned = if self.system.is_forced() { TAU * part } else { 0.0 };
+            let at = (time, phase::wrap(self.system.phase(&pair[0]) + turned));
+            let [Some(low), Some(high)] = pair.each_ref().map(|state| self.system.after(state, at)) else { continue };
             let apart = self.system.distance(&low, &high);
             if nearest.as_ref().is_none_or(|(.., least)| apart < *least) {
                 nearest = Some(([low, high], time, apart));
@@ -263,8 +265,11 @@ impl<S: Bordered> Search<'_, S> {
             // a lap says nothing of the period: the motion itself is searched for returns, now and then because that takes long
             return track.len().is_power_of_two().then(|| self.cycle(&last.state, 0, NEAR)).flatten();
         }
+        let phase = |point: &EdgePoint<S>| self.system.phase(&point.state);
+        let at_phase = |point: &EdgePoint<S>| phase::difference(phase(point), phase(last)).abs() <= SAME_PHASE;
         let apart = |point: &EdgePoint<S>| self.system.distance(&point.state, &last.state);
-        let returns = before.iter().rev().zip(1..=LONGEST).map(|(point, laps)| (laps, apart(point)));
+        let earlier = before.iter().rev().zip(1..=LONGEST).filter(|(point, _)| at_phase(point));
+        let returns = earlier.map(|(point, laps)| (laps, apart(point)));
         let mut near = returns.filter(|(_, apart)| *apart < NEAR);
         near.find_map(|(laps, apart)| self.cycle(&last.state, laps, FAR * apart.max(WIDE)))
     }

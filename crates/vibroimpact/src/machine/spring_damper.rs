@@ -85,6 +85,14 @@ impl SpringDamper {
         Ok(Self { mass, stiffness, damping, opening })
     }
 
+    /// The contact of a mass with this stiffness and damping ratio.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_damping_ratio(mass: f64, stiffness: f64, ratio: f64, opening: Opening) -> Result<Self, MachineError> {
+        Self::new(mass, stiffness, 2.0 * ratio * (stiffness * mass).sqrt(), opening)
+    }
+
     /// The contact of a mass with this stiffness that has this restitution.
     ///
     /// # Errors
@@ -94,7 +102,6 @@ impl SpringDamper {
             let fault = Fault::Range { value: wanted, range: "0 < value <= 1" };
             return Err(MachineError::new("restitution", fault));
         }
-        let undamped = Self::new(mass, stiffness, 0.0, opening)?;
         let loss = -ln(wanted);
         let ratio = match opening {
             Opening::Position => loss / crate::math::hypot(PI, loss),
@@ -107,7 +114,7 @@ impl SpringDamper {
                 .1
             }
         };
-        Ok(Self { damping: 2.0 * ratio * (stiffness * mass).sqrt(), ..undamped })
+        Self::with_damping_ratio(mass, stiffness, ratio, opening)
     }
 
     /// The mass.

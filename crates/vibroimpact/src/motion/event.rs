@@ -1,5 +1,6 @@
 //! The events of a motion, and how a motion can end.
 
+use crate::contact::ImpactState;
 use crate::flight::Horizon;
 use crate::system::Side;
 
@@ -14,6 +15,16 @@ pub struct Event {
     pub side: Side,
     /// The kind of the event.
     pub kind: EventKind,
+}
+
+impl Event {
+    /// The state at the arrival of an impact; `None` of another event.
+    #[inline]
+    #[must_use]
+    pub const fn arrival(&self) -> Option<ImpactState> {
+        let EventKind::Impact { velocity_before: velocity, .. } = self.kind else { return None };
+        Some(ImpactState { phase: self.phase, velocity, side: self.side })
+    }
 }
 
 /// The kind of an event.

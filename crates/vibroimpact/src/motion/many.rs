@@ -133,8 +133,7 @@ impl Recorder for Events<'_> {
             if !self.recorder.event(track.number, &event) {
                 return None;
             }
-            if let EventKind::Impact { velocity_before: velocity, .. } = event.kind {
-                let state = ImpactState { phase: event.phase, velocity, side: event.side };
+            if let Some(state) = event.arrival() {
                 // the lanes take it back
                 if leave(&state) {
                     track.time = motion.time();
