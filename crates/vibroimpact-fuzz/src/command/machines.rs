@@ -1,7 +1,6 @@
-//! Machine files with difficult numbers, and questions about them and about machines of the catalogue.
+//! Machine files with difficult numbers, and paths of numbers in them and in machines of the catalogue.
 
-use super::parts::{Words, flag, line, outputs, switch, word};
-use crate::values::{ProptestText, count, label, odd, plain, restitution, typed};
+use crate::values::{ProptestText, plain, restitution, typed};
 use proptest::prelude::*;
 
 /// The name of the machine file of a case.
@@ -9,7 +8,7 @@ pub(super) const FILE: &str = "drawn.toml";
 
 const BODIES: [&str; 3] = ["a", "b", "c"];
 /// What machines of the catalogue and the drawn file have, and some names that none of them has.
-const PATHS: &[&str] = &[
+pub(super) const PATHS: &[&str] = &[
     "frequency",
     "mass.a",
     "damping.a",
@@ -27,7 +26,8 @@ const PATHS: &[&str] = &[
     "q.a",
     "",
 ];
-const STARTS: &[&str] = &["q.a", "qdot.a", "q.b", "qdot.c", "phase", "q.head", "q.mass", "x", ""];
+/// Numbers of a start by path.
+pub(super) const STARTS: &[&str] = &["q.a", "qdot.a", "q.b", "qdot.c", "phase", "q.head", "q.mass", "x", ""];
 
 /// A number in a file: usual ones, and now and then an extreme one or a text.
 fn value(low: f64, high: f64) -> ProptestText {
@@ -122,59 +122,6 @@ pub(super) fn files() -> ProptestText {
             text + &links.concat() + &[one, two, friction].into_iter().flatten().collect::<String>()
         })
         .boxed()
-}
-
-/// Any command line about a machine.
-pub(super) fn lines() -> Words {
-    let machine =
-        || {
-            flag("machine", 1.0, prop_oneof![
-            12 => word(&[FILE]),
-            3 => word(&["two-mass-hammer", "soft-stop", "impact-damper", "bouncing-ball", "capsule", "sdnd101"]),
-            1 => word(&["machine.toml", "bad.toml", "plan.toml", "none", "", "."]),
-        ].boxed())
-        };
-    let few = || prop_oneof![6 => word(&["1", "2", "5"]), 1 => count()].boxed();
-    let budget = || flag("impacts", 0.9, word(&["60", "200", "400", "0", "-1"]));
-    let path = || prop_oneof![9 => word(PATHS), 1 => odd()].boxed();
-    let named = |path, value| (path, value).prop_map(|(path, value)| format!("{path}={value}")).boxed();
-    let set = || flag("set", 0.2, prop_oneof![19 => named(path(), plain()), 1 => odd()].boxed());
-    let start = || {
-        let list = || prop::collection::vec(plain(), 1..4).prop_map(|list| list.join(",")).boxed();
-        super::parts::all(vec![flag("q", 0.2, list()), flag("qdot", 0.2, list()), flag("phase", 0.2, plain())])
-    };
-    let axis = |names: &'static [&'static str]| {
-        let axis = (word(names), crate::values::range(-0.5, 1.5)).prop_map(|(path, over)| format!("{path}={over}"));
-        flag("axis", 0.97, axis.boxed())
-    };
-    let stored = || flag("store", 0.15, word(&["s.zarr", "thesis.zarr", "", "plan.toml"]));
-    prop_oneof![
-        4 => line("settle", vec![machine(), set(), start(), budget(), outputs("csv")]),
-        4 => line("simulate", vec![machine(), set(), start(), flag("impacts", 0.8, word(&["1", "40", "300", "0"])),
-            flag("periods", 0.2, plain()), outputs("csv")]),
-        2 => line("attractors", vec![machine(), set(), flag("starts", 0.97, few()), budget(), outputs("csv")]),
-        1 => line("orbit", vec![machine(), set(), flag("label", 0.98, label()), switch("json", 0.6)]),
-        2 => line("lyapunov", vec![machine(), set(), start(), flag("impacts", 1.0, word(&["60", "300", "24"])),
-            flag("transient", 1.0, word(&["10", "0", "-1"])), flag("points", 0.2, word(&["3", "40", "0"])),
-            outputs("csv")]),
-        2 => line("branch", vec![machine(), set(), start(), flag("vary", 0.98, path()),
-            flag("to", 0.98, prop_oneof![4 => plain(), 1 => word(&["0.2,1.5", "1.5,0.1"])].boxed()),
-            flag("also", 0.2, named(path(), plain())), flag("label", 0.3, label()), flag("orbit", 0.1, count()),
-            flag("follow", 0.1, word(&["1", "2"])), switch("no-diagram", 0.05),
-            flag("points", 1.0, word(&["2", "5", "12", "1"])), outputs("csv")]),
-        2 => line("basin", vec![machine(), set(), axis(STARTS), axis(STARTS), budget(), stored(), outputs("csv")]),
-        2 => line("map", vec![machine(), set(), axis(PATHS), axis(PATHS), flag("starts", 0.97, few()), budget(), stored(),
-            outputs("csv")]),
-        2 => line("diagram", vec![machine(), set(), flag("vary", 0.97, path()),
-            flag("over", 0.97, prop_oneof![3 => crate::values::range(0.2, 1.5), 1 => word(&["0.3,0.5,1.2", "1.2,0.4", "0.5,0.5", "0.5,x"])].boxed()),
-            flag("also", 0.1, named(path(), word(&["1:2", "0.4:0.2", "1"]))),
-            flag("show", 0.3, word(&["speed", "q.a", "qdot.b", "x", ""])),
-            flag("direction", 0.2, word(&["up", "down", "scatter"])), flag("transient", 1.0, word(&["10", "0", "30"])),
-            flag("keep", 1.0, word(&["5", "1", "0"])), stored(), outputs("csv")]),
-        1 => line("machine", vec![word(&["show"]).prop_map(|word| vec![word]).boxed(),
-            word(&[FILE]).prop_map(|word| vec![word]).boxed(), set(), switch("toml", 0.3), switch("json", 0.4)]),
-    ]
-    .boxed()
 }
 
 #[cfg(test)]
