@@ -21,7 +21,6 @@ mod overlays;
 mod planes;
 mod questions;
 mod refusals;
-mod same_as_library;
 mod stability;
 mod states;
 mod studies;

@@ -167,12 +167,12 @@ impl Line {
         let varies = |name: &str| varied.iter().find(|(parameter, _)| parameter.name() == name);
         let mut left: Vec<&(Parameter, Option<String>)> = varied.iter().collect();
         for (name, value) in numbers_of(body) {
-            self = match varies(name) {
+            self = match varies(&name) {
                 Some(one) => {
                     left.retain(|other| *other != one);
-                    self.given(name, one.1.clone())
+                    self.given(&name, one.1.clone())
                 }
-                None => self.given(name, value.map(number)),
+                None => self.flag(&name, number(value)),
             };
         }
         // a number that has no flag of its own in the body, such as both gaps together

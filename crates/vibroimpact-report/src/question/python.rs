@@ -121,9 +121,8 @@ fn pair(name: &str, value: &Value) -> String {
 
 /// A body in SI units.
 fn in_si(body: &Body) -> String {
-    let given = numbers_of(body)
-        .into_iter()
-        .filter_map(|(name, value)| Some(format!("{}={}", without_unit(name), number(value?))));
+    let given = numbers_of(body).into_iter();
+    let given = given.map(|(name, value)| format!("{}={}", without_unit(&name), number(value)));
     let space = body.stop_in_space.then(|| "stop_in_space=True".to_owned());
     format!("vi.Oscillator.from_units({})", given.chain(space).collect::<Vec<_>>().join(", "))
 }
