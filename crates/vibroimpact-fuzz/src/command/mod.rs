@@ -3,8 +3,7 @@
 mod machines;
 mod others;
 mod parts;
-mod planes;
-mod verbs;
+mod questions;
 
 use crate::case::Property;
 use crate::limits::{Limits, ProcessEnd, run};
@@ -84,8 +83,7 @@ impl Property for Commands {
         let line = |heavy| move |words| CommandCase { words, heavy, machine: None };
         let of_machine = |(text, words)| CommandCase { words, heavy: false, machine: Some(text) };
         prop_oneof![
-            12 => verbs::lines().prop_map(line(false)),
-            10 => planes::lines().prop_map(line(false)),
+            22 => questions::lines().prop_map(line(false)),
             12 => (machines::files(), machines::lines()).prop_map(of_machine),
             6 => others::lines().prop_map(line(false)),
             1 => others::heavy().prop_map(line(true)),

@@ -145,7 +145,8 @@ pub(super) fn all(parts: Vec<Words>) -> Words {
 }
 
 /// A command line: its verb, its parts, the global options, and sometimes an additional, repeated or truncated word.
-pub(super) fn line(verb: &'static str, parts: Vec<Words>) -> Words {
+pub(super) fn line(verb: impl Into<String>, parts: Vec<Words>) -> Words {
+    let verb = verb.into();
     let usual = all(vec![
         flag("threads", 0.1, word(&["0", "1", "3", "1024", "1025", "-1", "x"])),
         switch("quiet", 0.2),
@@ -154,7 +155,7 @@ pub(super) fn line(verb: &'static str, parts: Vec<Words>) -> Words {
     let spoil = prop::option::weighted(0.06, (any::<prop::sample::Index>(), 0..5_u8, odd()));
     (all(parts), usual, spoil)
         .prop_map(move |(parts, usual, spoil)| {
-            let mut line: Vec<String> = [verb.to_owned()].into_iter().chain(parts).chain(usual).collect();
+            let mut line: Vec<String> = [verb.clone()].into_iter().chain(parts).chain(usual).collect();
             let Some((place, how, odd)) = spoil else { return line };
             let k = place.index(line.len());
             match how {
