@@ -84,7 +84,7 @@ impl Property for Commands {
         let of_machine = |(text, words)| CommandCase { words, heavy: false, machine: Some(text) };
         prop_oneof![
             22 => questions::lines().prop_map(line(false)),
-            12 => (machines::files(), machines::lines()).prop_map(of_machine),
+            12 => machines::asked().prop_map(of_machine),
             6 => others::lines().prop_map(line(false)),
             1 => others::heavy().prop_map(line(true)),
         ]
