@@ -1,5 +1,9 @@
 //! Regions, margins, responses and many starts of machines of the catalogue, compared with single questions at scattered points.
-#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    reason = "a test may stop at what it did not expect, and a long one tells how far it is"
+)]
 
 use serde_json::{Value, json};
 use vibroimpact::continuation::Region;
