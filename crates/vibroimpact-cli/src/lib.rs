@@ -29,6 +29,12 @@ use clap::{ArgMatches, CommandFactory, FromArgMatches};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
+/// The parser of command lines, with all commands and their options.
+#[must_use]
+pub fn parser() -> clap::Command {
+    commands::CommandLine::command()
+}
+
 /// Runs a command line, whose first word is the name of the program, and returns the exit code. `program` is the file to
 /// name in scripts that run the command again; that of this process when absent.
 ///
@@ -43,7 +49,7 @@ pub fn run(words: &[OsString], program: Option<PathBuf>) -> u8 {
     let named = words.get(1).filter(|_| !helps).and_then(|word| commands::alone(word.to_str()?));
     let parsed = named.and_then(|command| command.try_get_matches_from(words).ok()).map_or_else(
         || {
-            let all = commands::CommandLine::command();
+            let all = parser();
             if helps { help::shown(all) } else { all }.try_get_matches_from(words)
         },
         Ok,
