@@ -11,8 +11,7 @@ use crate::plan::{PlanFields, fields, read, text};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use std::sync::Arc;
-use vibroimpact::chaos::Section;
-use vibroimpact_report::json::event::{self, EventObject, side};
+use vibroimpact_report::json::event::{self, EventObject, Stops};
 use vibroimpact_report::json::motion::horizon;
 use vibroimpact_report::{AnswerError, Asked, ContactQuestion, Shown, Units, figure};
 use vibroimpact_study::{
@@ -97,29 +96,15 @@ pub(crate) struct SectionFields<'py> {
 }
 
 impl<'py> SectionFields<'py> {
-    fn of_oscillator(py: Python<'py>, osc: &vibroimpact::Oscillator, found: &Section) -> PyResult<Self> {
-        let (impacts, strobes) = (|| found.impacts.iter(), || found.strobes.iter());
-        let of = |at: vibroimpact::Side| osc.stop(at).map_or((0.0, 0.0), |stop| (stop.gap, stop.restitution));
-        Ok(Self {
-            stop: impacts().map(|at| side(at.side).to_owned()).collect(),
-            phase: column(py, impacts().map(|at| at.phase)),
-            speed: column(py, impacts().map(|at| at.velocity)),
-            q: grid(py, impacts().map(|at| vec![at.side.sign() * of(at.side).0]), 1)?,
-            // without a rebound 0, not -0
-            qdot: grid(py, impacts().map(|at| vec![-at.side.sign() * of(at.side).1 * at.velocity + 0.0]), 1)?,
-            strobe_q: grid(py, strobes().map(|at| vec![at.x]), 1)?,
-            strobe_qdot: grid(py, strobes().map(|at| vec![at.v]), 1)?,
-        })
-    }
-
-    fn of_machine(py: Python<'py>, found: &SectionPoints, stop: Vec<String>, width: usize) -> PyResult<Self> {
+    /// Of a system with so many coordinates.
+    fn new(py: Python<'py>, found: &SectionPoints, system: &impl Stops, width: usize) -> PyResult<Self> {
         let (closings, strobes) = (|| found.closings.iter(), || found.strobes.iter());
         Ok(Self {
-            stop,
-            phase: column(py, closings().map(|at| at.phase)),
+            stop: closings().map(|at| system.name_of_stop(at.stop).to_owned()).collect(),
+            phase: column(py, closings().map(|at| at.state.phase)),
             speed: column(py, closings().map(|at| at.speed)),
-            q: grid(py, closings().map(|at| at.q.clone()), width)?,
-            qdot: grid(py, closings().map(|at| at.qdot.clone()), width)?,
+            q: grid(py, closings().map(|at| at.state.q.clone()), width)?,
+            qdot: grid(py, closings().map(|at| at.state.qdot.clone()), width)?,
             strobe_q: grid(py, strobes().map(|at| at.q.clone()), width)?,
             strobe_qdot: grid(py, strobes().map(|at| at.qdot.clone()), width)?,
         })
@@ -335,7 +320,7 @@ impl Answer {
                     Columns::Simulation(SimulationFields::new(py, found, 1, object))
                 }
                 (_, Results::Lyapunov(_, Some(points))) => {
-                    Columns::Section(SectionFields::of_oscillator(py, &of.system, points)?)
+                    Columns::Section(SectionFields::new(py, points, &of.system, 1)?)
                 }
                 (Task::Response(task), Results::Response(found)) => {
                     let vary = Parameter::of(task.vary.text())?;
@@ -349,8 +334,7 @@ impl Answer {
                     Columns::Simulation(SimulationFields::new(py, found, of.system.n(), object))
                 }
                 Results::Lyapunov(_, Some(points)) => {
-                    let stops = points.closings.iter().map(|at| of.system.name_of(at.place).to_owned()).collect();
-                    Columns::Section(SectionFields::of_machine(py, points, stops, of.system.n())?)
+                    Columns::Section(SectionFields::new(py, points, &of.system, of.system.n())?)
                 }
                 Results::Response(found) => {
                     let units = vec![""; found.quantities.len()];

@@ -150,6 +150,12 @@ impl Units {
         if self.si { format!("{name}{}", kind.suffix()) } else { name.to_owned() }
     }
 
+    /// The names of the columns of position and velocity, as of all coordinates and all velocities.
+    pub(crate) fn states(&self) -> (Vec<String>, Vec<String>) {
+        let name = |of, kind| vec![self.column(of, kind)];
+        (name("x", QuantityKind::Length), name("v", QuantityKind::Velocity))
+    }
+
     /// A quantity as text, with its unit if there is one.
     #[must_use]
     pub fn text(&self, of: &Quantities, quantity: Quantity) -> String {

@@ -98,7 +98,7 @@ pub use event_record::EventRecord;
 pub use field::{Column, Extra, Field, NumberType};
 pub use grid::{Block, Dimension, Grid, number, place};
 pub use limits::PLAN_VERSION;
-pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan, SectionPoints};
+pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan, SectionClosing, SectionPoints};
 pub use machine::{Body, BodyNumber};
 pub use map::{MapPlan, RegionMap, Share};
 pub use margins::{

@@ -15,7 +15,7 @@ use crate::response::response;
 use crate::simulate::TELL;
 use crate::{
     Basin, Branches, Control, EventCurve, LyapunovPlan, MotionMargins, Plan, PlanError, RegionMap, Regions,
-    ResponseCurves, RunError, Simulated, Stopped, System, SystemPlan, Task,
+    ResponseCurves, RunError, SectionPoints, Simulated, Stopped, System, SystemPlan, Task,
 };
 use core::sync::atomic::{AtomicU64, Ordering};
 use vibroimpact::chaos::Exponents;
@@ -42,7 +42,7 @@ pub enum Results<D: Dynamics> {
     /// The motions at each value.
     Diagram(Diagram<D::Name, D::Shown>),
     /// The exponents of the motion, and its sections if points of them were requested.
-    Lyapunov(Exponents<D::System>, Option<D::Sections>),
+    Lyapunov(Exponents<D::System>, Option<SectionPoints>),
     /// A branch and the branches that begin on it.
     Branch(Branches<CycleOf<D>, PointOf<D>>),
     /// A curve of events.

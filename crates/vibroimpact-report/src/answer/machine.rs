@@ -207,8 +207,4 @@ impl Told for MachineSource {
     fn basin_table<'a>(of: &'a AnswerOf<Self>, found: &'a BasinOf<Self>) -> Result<Table<'a>, PlanError> {
         table::basin::of_machine(&of.system, found)
     }
-
-    fn section_table<'a>(of: &'a AnswerOf<Self>, points: &'a SectionPoints) -> Table<'a> {
-        table::section::of_machine(&of.system, points)
-    }
 }

@@ -367,7 +367,9 @@ impl<D: Told> AnswerOf<D> {
             Results::Basin(found) => D::basin_table(self, found)?,
             Results::Map(found) => table::map::table(found, &self.system, (*units, machine.is_some()))?,
             Results::Diagram(found) => table::diagram::table(found, &self.system, *units)?,
-            Results::Lyapunov(_, Some(points)) => D::section_table(self, points),
+            Results::Lyapunov(_, Some(points)) => {
+                table::section::table(points, &self.system, &D::names(self), self.units)
+            }
             Results::Lyapunov(..) => return Ok(None),
             Results::Branch(found) => table::branch::table(self.branches(found)?, machine, (&self.cut()?, units)),
             Results::Curve(found) => table::curve::table(self.curve(found)?, machine, (&self.curve_plan()?, units)),

@@ -17,15 +17,15 @@ use crate::response::ResponseView;
 use crate::scene::{BifurcationDiagram, View, Viewed, phase_portrait, strobes};
 use crate::{AnswerError, Asked, ReportError, ShownValue as _, Table, Units, figure, table};
 use vibroimpact::Start;
-use vibroimpact::chaos::{Exponents, Section};
+use vibroimpact::chaos::Exponents;
 use vibroimpact::continuation::SolutionPoint;
 use vibroimpact::motion::Event;
 use vibroimpact::verdict::{Census, Settled, Verdict};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::diagram::Show;
 use vibroimpact_study::{
-    Basin, Branches, CurvePlan, Cut, EventCurve, Name as _, Orbit, Parameter, PlanError, ResponseCurves, Simulated,
-    SystemPlan, Task,
+    Basin, Branches, CurvePlan, Cut, EventCurve, Name as _, Orbit, Parameter, PlanError, ResponseCurves, SectionPoints,
+    Simulated, SystemPlan, Task,
 };
 
 impl AnswerOf<SystemPlan> {
@@ -67,8 +67,7 @@ impl Told for SystemPlan {
     }
 
     fn names(of: &AnswerOf<Self>) -> (Vec<String>, Vec<String>) {
-        let name = |plain: &str, si: &str| vec![if of.units.si { format!("{plain}_{si}") } else { plain.to_owned() }];
-        (name("x", "m"), name("v", "m_per_s"))
+        of.units.states()
     }
 
     fn motion<'a>(of: &'a AnswerOf<Self>, verdict: &'a Verdict) -> MotionObject<'a> {
@@ -148,7 +147,7 @@ impl Told for SystemPlan {
         Ok(Viewed::new(view, (&of.system, of.start), found, &of.asked())?.figure())
     }
 
-    fn section_figure(of: &AnswerOf<Self>, _: &Exponents, points: &Section) -> Figure {
+    fn section_figure(of: &AnswerOf<Self>, _: &Exponents, points: &SectionPoints) -> Figure {
         figure::section::figure(points, &of.system, &of.asked())
     }
 
@@ -171,10 +170,6 @@ impl Told for SystemPlan {
 
     fn basin_table<'a>(of: &'a AnswerOf<Self>, found: &'a Basin) -> Result<Table<'a>, PlanError> {
         table::basin::table(found, &of.units)
-    }
-
-    fn section_table<'a>(of: &'a AnswerOf<Self>, points: &'a Section) -> Table<'a> {
-        table::section::table(points, &of.system, of.units)
     }
 }
 

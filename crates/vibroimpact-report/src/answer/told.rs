@@ -21,7 +21,7 @@ use vibroimpact::verdict::{Census, Settled, Verdict};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::{
     Along, Basin, Branches, CurvePlan, Cut, CycleOf, Dynamics, EventCurve, Orbit, PlanError, PointOf, ResponseCurves,
-    Simulated,
+    SectionPoints, Simulated,
 };
 
 /// The branches of a system.
@@ -128,7 +128,7 @@ pub trait Told:
     fn settled_figure(of: &AnswerOf<Self>, found: &Settled<Self::System>, view: View) -> Result<Figure, AnswerError>;
 
     /// The figure of both sections of an attractor.
-    fn section_figure(of: &AnswerOf<Self>, found: &Exponents<Self::System>, points: &Self::Sections) -> Figure;
+    fn section_figure(of: &AnswerOf<Self>, found: &Exponents<Self::System>, points: &SectionPoints) -> Figure;
 
     /// The waveform of a motion, with this time between its points.
     fn simulated_table<'a>(
@@ -149,7 +149,4 @@ pub trait Told:
 
     /// The table of a basin.
     fn basin_table<'a>(of: &'a AnswerOf<Self>, found: &'a BasinOf<Self>) -> Result<Table<'a>, PlanError>;
-
-    /// The table of both sections of an attractor.
-    fn section_table<'a>(of: &'a AnswerOf<Self>, points: &'a Self::Sections) -> Table<'a>;
 }

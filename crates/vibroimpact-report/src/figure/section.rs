@@ -1,14 +1,13 @@
 //! The figure of both sections of an attractor: phase and speed of its closings of stops, and its states at phase 0.
 
-use crate::Asked;
 use crate::figure::{first_of, series, title};
 use crate::number::short;
+use crate::{Asked, Units};
 use core::f64::consts::PI;
-use vibroimpact::chaos::Section;
-use vibroimpact::machine::{self, Machine};
+use vibroimpact::machine::Machine;
 use vibroimpact::{Oscillator, Side, Stop};
 use vibroimpact_plot::{COLUMN, Colour, Figure, FigureAxis, Legend, Panel, Points, Tick, plain};
-use vibroimpact_study::{SectionPoints, SystemPlan};
+use vibroimpact_study::{SectionPoints, SystemPlan, stop_number};
 
 /// Maximum number of distinct points that are drawn as large dots.
 const FEW: usize = 200;
@@ -22,22 +21,24 @@ const ROWS: usize = 3;
 const LARGE: f64 = 9.0;
 const SMALL: f64 = 2.6;
 
-/// What is drawn of the closings of stops.
-struct Closings {
+/// How both sections of a system are drawn.
+struct Look {
     caption: &'static str,
+    /// The name of the speed of a closing.
     ordinate: String,
-    /// A speed that is not rounding.
-    unit: f64,
-    /// The name of each stop, and the phases and speeds of its closings.
-    stops: Vec<(String, Vec<f64>, Vec<f64>)>,
+    /// The stops, with their names.
+    stops: Vec<(usize, String)>,
+    /// The names of each coordinate and of its velocity.
+    planes: Vec<[String; 2]>,
+    /// A length, a velocity and a speed of closing that are not rounding.
+    sizes: [f64; 3],
+    /// The height of a panel.
+    height: f64,
 }
-
-/// The names of both axes of a plane of states, and displacements and velocities.
-type Plane = ([String; 2], Vec<f64>, Vec<f64>);
 
 /// The figure of `vibro lyapunov`.
 #[must_use]
-pub fn figure(found: &Section, osc: &Oscillator, asked: &Asked) -> Figure {
+pub fn figure(found: &SectionPoints, osc: &Oscillator, asked: &Asked) -> Figure {
     let units = &asked.units;
     let stop = |(side, stop): (Side, Stop)| {
         let name = match side {
@@ -47,22 +48,19 @@ pub fn figure(found: &Section, osc: &Oscillator, asked: &Asked) -> Figure {
                 format!("second stop, *δ*_2 = {gap}, *ε*_2 = {restitution}").replace('-', "−")
             }
         };
-        let at = found.impacts.iter().filter(|impact| impact.side == side);
-        let (phases, speeds) = at.map(|at| (at.phase, at.velocity * units.velocity())).unzip();
-        (name, phases, speeds)
+        (stop_number(side), name)
     };
-    let closings = Closings {
+    let look = Look {
         caption: "impacts",
         ordinate: units.named("arrival velocity *u*_−", "m/s"),
-        unit: units.velocity(),
         stops: osc.stops().map(stop).collect(),
+        planes: vec![[units.named("*ξ*", "m"), units.named("velocity *ξ*′", "m/s")]],
+        sizes: [units.length(), units.velocity(), units.velocity()],
+        height: 430.0,
     };
-    let states = found.strobes.iter().map(|at| (at.x * units.length(), at.v * units.velocity()));
-    let (xs, vs) = states.unzip();
-    let plane = ([units.named("*ξ*", "m"), units.named("velocity *ξ*′", "m/s")], xs, vs);
     // the legend names the second stop; a title with all parameters would be too long for a column
     let title = title(&Asked { system: SystemPlan { second_stop: None, ..asked.system }, ..*asked });
-    draw(closings, vec![plane], (units.length(), units.velocity()), 430.0).title(title)
+    draw(found, look, units).title(title)
 }
 
 /// The figure of `vibro lyapunov --machine`: a plane for each coordinate and its velocity.
@@ -70,53 +68,51 @@ pub fn figure(found: &Section, osc: &Oscillator, asked: &Asked) -> Figure {
 pub fn of_machine(found: &SectionPoints, machine: &Machine, title: String) -> Figure {
     let coordinates = &machine.parts().coordinates;
     let shown = coordinates.len().min(PLANES);
-    let stop = |(k, stop): (usize, &machine::Stop)| {
-        let at = found.closings.iter().filter(|closing| closing.place == k);
-        let (phases, speeds) = at.map(|closing| (closing.phase, closing.speed)).unzip();
-        (plain(&stop.name), phases, speeds)
-    };
-    let closings = Closings {
+    let look = Look {
         caption: "closings of stops",
         ordinate: "speed of closing".to_owned(),
-        unit: largest(found.closings.iter().map(|closing| closing.speed)),
-        stops: machine.stops().iter().enumerate().map(stop).collect(),
+        stops: machine.stops().iter().map(|stop| plain(&stop.name)).enumerate().collect(),
+        planes: coordinates[..shown]
+            .iter()
+            .map(|name| ["q", "qdot"].map(|of| format!("{of}.{}", plain(name))))
+            .collect(),
+        // lengths and velocities are small or large relative to those of all coordinates
+        sizes: [
+            largest(found.strobes.iter().flat_map(|state| state.q.iter().copied())),
+            largest(found.strobes.iter().flat_map(|state| state.qdot.iter().copied())),
+            largest(found.closings.iter().map(|closing| closing.speed)),
+        ],
+        height: 380.0,
     };
-    let plane = |(i, name): (usize, &String)| {
-        let (xs, vs) = found.strobes.iter().map(|state| (state.q[i], state.qdot[i])).unzip();
-        (["q", "qdot"].map(|of| format!("{of}.{}", plain(name))), xs, vs)
-    };
-    let planes = coordinates[..shown].iter().enumerate().map(plane).collect();
-    // lengths and velocities are small or large relative to those of all coordinates
-    let length = largest(found.strobes.iter().flat_map(|state| state.q.iter().copied()));
-    let speed = largest(found.strobes.iter().flat_map(|state| state.qdot.iter().copied()));
-    draw(closings, planes, (length, speed), 380.0).title(first_of(title, shown, coordinates.len()))
+    draw(found, look, &Units::default()).title(first_of(title, shown, coordinates.len()))
 }
 
-/// The panels, of this height each; `length` and `speed` are values that are not rounding.
-fn draw(closings: Closings, planes: Vec<Plane>, (length, speed): (f64, f64), height: f64) -> Figure {
-    let speeds: Vec<f64> = closings.stops.iter().flat_map(|(.., speeds)| speeds).copied().collect();
-    let across = phases(closings.stops.iter().flat_map(|(_, phases, _)| phases).copied());
-    let ordinate = fitted(closings.ordinate, &speeds, closings.unit);
-    let mut panel = Panel::new(across, ordinate).caption(closings.caption);
+fn draw(found: &SectionPoints, look: Look, units: &Units) -> Figure {
+    let [length, velocity, speed] = look.sizes;
+    let speeds: Vec<f64> = found.closings.iter().map(|at| at.speed * units.velocity()).collect();
+    let across = phases(found.closings.iter().map(|at| at.state.phase));
+    let mut panel = Panel::new(across, fitted(look.ordinate, &speeds, speed)).caption(look.caption);
     let mut legend = Legend::below();
-    let several = closings.stops.len() > 1;
-    for (k, (name, phases, speeds)) in closings.stops.into_iter().enumerate() {
+    let several = look.stops.len() > 1;
+    for (k, (stop, name)) in look.stops.into_iter().enumerate() {
+        let closings = found.closings.iter().zip(&speeds).filter(|(at, _)| at.stop == stop);
+        let (phases, speeds) = closings.map(|(at, speed)| (at.state.phase, *speed)).unzip();
         let points = dots(phases, speeds, series(k));
         // a dot of the cloud is too small for the legend
         legend = legend.points(&points.clone().size(LARGE), name);
         panel.add(points);
     }
-    let plane = |([x, v], xs, vs): Plane| {
-        Panel::new(fitted(x, &xs, length), fitted(v, &vs, speed)).caption("states at phase 0").with(dots(
-            xs,
-            vs,
-            Colour::BLACK,
-        ))
+    let plane = |(i, [x, v]): (usize, [String; 2])| {
+        let states = found.strobes.iter().map(|at| (at.q[i] * units.length(), at.qdot[i] * units.velocity()));
+        let (xs, vs): (Vec<f64>, Vec<f64>) = states.unzip();
+        let panel = Panel::new(fitted(x, &xs, length), fitted(v, &vs, velocity)).caption("states at phase 0");
+        panel.with(dots(xs, vs, Colour::BLACK))
     };
-    let panels: Vec<Panel> = core::iter::once(panel).chain(planes.into_iter().map(plane)).collect();
+    let planes = look.planes.into_iter().enumerate().map(plane);
+    let panels: Vec<Panel> = core::iter::once(panel).chain(planes).collect();
     let columns = panels.len().div_ceil(ROWS);
     #[allow(clippy::cast_precision_loss)] // a few panels
-    let (width, height) = (COLUMN * columns as f64, height * panels.len().div_ceil(columns) as f64);
+    let (width, height) = (COLUMN * columns as f64, look.height * panels.len().div_ceil(columns) as f64);
     let figure = Figure::grid(columns, panels).size(width, height);
     if several { figure.legend(legend) } else { figure }
 }
@@ -181,8 +177,8 @@ fn distinct(xs: &[f64], ys: &[f64]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Units;
     use vibroimpact::Start;
+    use vibroimpact::chaos::Section;
     use vibroimpact::motion::ImpactState;
 
     /// The states of 1/1 differ in their last digits. Each panel shows one dot, and the axes show no digits of
@@ -196,7 +192,7 @@ mod tests {
             let strobes = (0..9).map(|k| Start { x: x + off(k), v: v + off(k + 1), phase: 0.0 }).collect();
             let impact = |k| ImpactState { phase: 1.0 + off(k), velocity: velocity + off(k), side: Side::Upper };
             let found = Section { impacts: (0..9).map(impact).collect(), strobes };
-            let figure = figure(&found, &osc, &asked);
+            let figure = figure(&SectionPoints::of_oscillator(&osc, &found), &osc, &asked);
             for axis in figure.panels.iter().flat_map(|panel| [&panel.x, &panel.y]) {
                 let (low, high) = axis.range.expect("a range of its own");
                 assert!(high - low >= 0.99, "{low} {high}");
@@ -205,6 +201,6 @@ mod tests {
         // points that are really distinct are drawn as distinct
         let strobes = [0.3, 0.3001].map(|x| Start { x, v: -1.0, phase: 0.0 }).to_vec();
         let found = Section { impacts: Vec::new(), strobes };
-        assert_eq!(figure(&found, &osc, &asked).panels[1].x.range, None);
+        assert_eq!(figure(&SectionPoints::of_oscillator(&osc, &found), &osc, &asked).panels[1].x.range, None);
     }
 }

@@ -7,11 +7,11 @@ use crate::figure::{section, settle};
 use crate::table::{self, Table};
 use crate::{Asked, ReportError};
 use serde::Deserialize;
-use vibroimpact::chaos::Section;
 use vibroimpact::math::Multiplier;
 use vibroimpact::verdict::Settled;
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_plot::Figure;
+use vibroimpact_study::SectionPoints;
 
 /// Number of impacts and states of a section.
 pub const SECTION_POINTS: u64 = 2000;
@@ -55,7 +55,7 @@ pub struct Viewed<'a> {
     settled: &'a Settled,
     asked: &'a Asked,
     multipliers: Option<[Multiplier; 2]>,
-    section: Section,
+    section: SectionPoints,
 }
 
 impl<'a> Viewed<'a> {
@@ -75,7 +75,7 @@ impl<'a> Viewed<'a> {
         }
         let section = match view {
             View::Sections => sections(osc, start, settled, SECTION_POINTS),
-            _ => Section::default(),
+            _ => SectionPoints::default(),
         };
         Ok(Self { view, osc, start, settled, asked, multipliers, section })
     }
@@ -103,7 +103,7 @@ impl<'a> Viewed<'a> {
         let Self { osc, start, settled, asked, .. } = *self;
         Ok(match (self.view, &self.multipliers) {
             (View::Multipliers, Some(both)) => table::multipliers(both),
-            (View::Sections, _) => table::section::table(&self.section, osc, asked.units),
+            (View::Sections, _) => table::section::table(&self.section, osc, &asked.units.states(), asked.units),
             (View::Waveform | View::Phase | View::Multipliers, _) => {
                 table::waveform::steady(osc, start, settled, asked.units)?
             }

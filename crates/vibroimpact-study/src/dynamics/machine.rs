@@ -3,7 +3,7 @@
 use super::{Dynamics, Setup};
 use crate::diagram::{Diagram, DiagramPlan};
 use crate::in_memory::{DIAGRAM_TILE, diagram, machine_attractors, machine_basin, machine_map, machine_points};
-use crate::lyapunov::{SectionPoints, section};
+use crate::lyapunov::section;
 use crate::machine::{MachineSource, StartAxis, VariedMachine};
 use crate::map::options;
 use crate::margins::{MotionBox, ParameterMargin};
@@ -82,7 +82,6 @@ impl Dynamics for MachineSource {
     type System = Machine;
     type Start = Start;
     type Event = Event;
-    type Sections = SectionPoints;
     type Along = Family;
     type CurvePoint = CurvePoint;
     type Curve = Curve;

@@ -42,8 +42,6 @@ pub trait Dynamics: Clone + Debug {
     type Start: Clone + Debug + PartialEq;
     /// An event of a motion.
     type Event: Clone + Debug;
-    /// The points of an attractor in two sections.
-    type Sections: Clone + Debug;
     /// The systems along a line through numbers.
     type Along: Along<Point: Solution<System = Self::System>>;
     /// A point of a curve of events.

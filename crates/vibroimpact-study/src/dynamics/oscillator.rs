@@ -12,10 +12,10 @@ use crate::stretch::check_plane;
 use crate::study::{SweepFill, diagram_of};
 use crate::{
     Column, Control, Coordinate, CurvePlan, Cut, FollowedEvent, LyapunovPlan, MarginsPlan, Orbit, Parameter, PlanError,
-    PlanResults, Quantity, Results, RunError, ScaledParameter, Scope, Simulated, StartPlan, Stopped, Stretch,
-    SystemPlan, Task,
+    PlanResults, Quantity, Results, RunError, ScaledParameter, Scope, SectionPoints, Simulated, StartPlan, Stopped,
+    Stretch, SystemPlan, Task,
 };
-use vibroimpact::chaos::{Section, exponents_while, section_while};
+use vibroimpact::chaos::{exponents_while, section_while};
 use vibroimpact::continuation::{
     BranchError, BranchOptions, Curve, CurveEvent, CurveOptions, CurvePoint, SolutionPoint,
 };
@@ -52,7 +52,6 @@ impl Dynamics for SystemPlan {
     type System = Oscillator;
     type Start = Start;
     type Event = Event;
-    type Sections = Section;
     type Along = (Oscillator, ParameterPath);
     type CurvePoint = CurvePoint;
     type Curve = Curve;
@@ -122,12 +121,10 @@ impl Dynamics for SystemPlan {
         go_on: &dyn Fn() -> bool,
     ) -> Result<Results<Self>, RunError> {
         let (osc, start, stopped) = (&of.system, of.start, Stopped { done: 0, total: 1 });
-        let section = match plan.points {
-            Some(points) => Some(section_while(osc, start, plan.lengths().1, points, go_on).ok_or(stopped)?),
-            None => None,
-        };
+        let section = |points| section_while(osc, start, plan.lengths().1, points, go_on).ok_or(stopped);
+        let section = plan.points.map(section).transpose()?;
         let found = exponents_while(osc, start, &plan.options(), go_on).ok_or(stopped)?;
-        Ok(Results::Lyapunov(found, section))
+        Ok(Results::Lyapunov(found, section.map(|section| SectionPoints::of_oscillator(osc, &section))))
     }
 
     fn over_grid(of: &Setup<'_, Self>, task: &Task, control: &Control<'_>) -> Result<Results<Self>, RunError> {

@@ -6,8 +6,8 @@ mod section;
 use crate::axis::{self, Axis, Coordinate};
 use crate::machine::{MachineSource, StartAxis};
 use crate::{PlanError, StartPlan, SystemPlan, limits};
-pub use section::SectionPoints;
 pub(crate) use section::section;
+pub use section::{SectionClosing, SectionPoints};
 use serde::{Deserialize, Serialize};
 use vibroimpact::chaos::{
     DEFAULT_EVENTS, DEFAULT_IMPACTS, DEFAULT_MACHINE_TRANSIENT, DEFAULT_TRANSIENT, ExponentOptions,

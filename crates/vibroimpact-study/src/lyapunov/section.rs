@@ -1,19 +1,53 @@
-//! Points of the attractor of a machine: its closings of stops, and its states once in every forcing period.
+//! Points of an attractor: its closings of stops, and its states once in every forcing period.
 
 use crate::diagram::{EVENTS_EACH, at_phase_zero};
 use crate::dynamics::refused;
-use crate::{RunError, Stopped};
+use crate::{RunError, Stopped, stop_number};
+use vibroimpact::chaos::Section;
 use vibroimpact::events;
 use vibroimpact::events::{Event, Limits, Motion, Sample};
 use vibroimpact::machine::Machine;
+use vibroimpact::motion::ImpactState;
+use vibroimpact::{Oscillator, Start};
 
-/// The points of a motion of a machine in two sections, in the order of time.
+/// The points of a motion in two sections, in the order of time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SectionPoints {
-    /// Its closings of stops; velocities are those after the closing.
-    pub closings: Vec<Event>,
+    /// Its closings of stops.
+    pub closings: Vec<SectionClosing>,
     /// Its states at phase 0 of the forcing: the stroboscopic section.
     pub strobes: Vec<events::Start>,
+}
+
+/// A closing of a stop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SectionClosing {
+    /// The number of the stop.
+    pub stop: usize,
+    /// The speed of the closing.
+    pub speed: f64,
+    /// The state after it.
+    pub state: events::Start,
+}
+
+impl SectionPoints {
+    /// The points of a motion of an oscillator.
+    #[must_use]
+    pub fn of_oscillator(osc: &Oscillator, found: &Section) -> Self {
+        let state = |x, v, phase| events::Start { q: vec![x], qdot: vec![v], phase, ..events::Start::default() };
+        let closing = |at: &ImpactState| {
+            let (gap, restitution) = osc.stop(at.side).map_or((0.0, 0.0), |stop| (stop.gap, stop.restitution));
+            let sign = at.side.sign();
+            // without a rebound 0, not -0
+            let after = state(sign * gap, -sign * restitution * at.velocity + 0.0, at.phase);
+            SectionClosing { stop: stop_number(at.side), speed: at.velocity, state: after }
+        };
+        let strobe = |at: &Start| state(at.x, at.v, at.phase);
+        Self {
+            closings: found.impacts.iter().map(closing).collect(),
+            strobes: found.strobes.iter().map(strobe).collect(),
+        }
+    }
 }
 
 /// So many closings after a transient of closings, and so many states at phase 0 after a transient of forcing periods. There are
@@ -27,7 +61,11 @@ pub(crate) fn section(
     let whole = |count: u64| usize::try_from(count).unwrap_or(usize::MAX);
     let motion = Motion::new(machine, start, Limits::default()).map_err(refused)?;
     let events = motion.take(whole(EVENTS_EACH * (transient + points))).take_while(|_| go_on());
-    let closings = events.filter(Event::closes).skip(whole(transient)).take(whole(points)).collect();
+    let closing = |event: Event| {
+        let state = events::Start { q: event.q, qdot: event.qdot, phase: event.phase, ..events::Start::default() };
+        SectionClosing { stop: event.place, speed: event.speed, state }
+    };
+    let closings = events.filter(Event::closes).skip(whole(transient)).take(whole(points)).map(closing).collect();
     let (_, samples) = at_phase_zero(machine, start, transient + points)?;
     let states = samples.take_while(|_| go_on()).filter(|sample| sample.even);
     let state = |sample: Sample| events::Start { phase: 0.0, ..sample.start() };
@@ -44,7 +82,7 @@ mod tests {
     use crate::PlanError;
     use vibroimpact::chaos::section as of_oscillator;
     use vibroimpact::machine::MachineParts;
-    use vibroimpact::{Oscillator, Start, scenario};
+    use vibroimpact::scenario;
 
     /// A machine of one coordinate has the sections of the oscillator.
     #[test]
@@ -60,12 +98,14 @@ mod tests {
         let found = section(&machine, &start, (transient, points), &|| true).unwrap();
         let expected = of_oscillator(&osc, rest, transient, points);
         assert_eq!((found.closings.len(), found.strobes.len()), (20, 20));
-        for (closing, impact) in found.closings.iter().zip(&expected.impacts) {
-            assert!((closing.phase - impact.phase).abs() < 1e-9 && (closing.speed - impact.velocity).abs() < 1e-9);
+        let expected = SectionPoints::of_oscillator(&osc, &expected);
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
+        let same = |a: &events::Start, b: &events::Start| near(a.q[0], b.q[0]) && near(a.qdot[0], b.qdot[0]);
+        for (own, other) in found.closings.iter().zip(&expected.closings) {
+            assert!(near(own.speed, other.speed) && near(own.state.phase, other.state.phase), "{own:?} {other:?}");
+            assert!(own.stop == other.stop && same(&own.state, &other.state), "{own:?} {other:?}");
         }
-        for (state, strobe) in found.strobes.iter().zip(&expected.strobes) {
-            assert!((state.q[0] - strobe.x).abs() < 1e-9 && (state.qdot[0] - strobe.v).abs() < 1e-9, "{state:?}");
-        }
+        assert!(found.strobes.iter().zip(&expected.strobes).all(|(own, other)| same(own, other)));
         let free = Machine::new(MachineParts::new(["x"]).with_mass(0, 1.0).with_link(&[1.0], 1.0, 0.1)).unwrap();
         let refused = section(&free, &events::Start::default(), (1, 1), &|| true);
         assert!(matches!(refused, Err(RunError::Plan(PlanError::Unforced))), "{refused:?}");
