@@ -36,7 +36,14 @@ impl Motion<'_> {
         let Some(flight) = self.fly() else { return self.end = Some(End::Inconsistent) };
         let recovered = self.recovery();
         let until = recovered.min(self.limits.time);
-        let (found, never) = self.first_event(&flight, until, recovered.is_finite());
+        (self.buffers.square, self.buffers.longest) = (self.instants.square(), self.instants.longest());
+        self.buffers.stalled = self.crowd > STALLED;
+        // few windows first: most flights end within them, and of the others it is asked whether they end at all
+        let mut found = self.first_event(&flight, until, self.limits.steps.min(PATIENCE));
+        let never = match found {
+            Found::NoneBefore(s) => self.search_on(&flight, (s, until), recovered.is_finite(), &mut found),
+            Found::Zero { .. } => false,
+        };
         self.announce_touches(&flight);
         self.passage = None;
         if self.recording {
@@ -74,30 +81,30 @@ impl Motion<'_> {
         times.fold(f64::INFINITY, f64::min)
     }
 
-    /// The first event of a flight, and whether it is shown that there is none ever. `recovers` says whether a surface changes its
-    /// guard at `until`.
-    fn first_event(&mut self, flight: &MachineFlight, until: f64, recovers: bool) -> (Found, bool) {
-        (self.buffers.square, self.buffers.longest) = (self.instants.square(), self.instants.longest());
-        self.buffers.stalled = self.crowd > STALLED;
-        let search = |motion: &mut Self, steps: u32| {
-            motion.touches.clear();
-            let found = first_event(flight, until, steps, &mut motion.buffers, &mut motion.touches);
-            let Found::NoneBefore(s) = found else { return (found, false) };
-            // a long flight: is there an event at all?
-            let never = !recovers && flight.never_after(s, &motion.normal, &mut motion.buffers.modes);
-            (found, never)
-        };
-        let steps = self.limits.steps;
-        // a few steps first: most flights end within them, and of the others it is asked whether they end at all
-        let (mut found, mut never) = search(self, steps.min(PATIENCE));
-        if let (Found::NoneBefore(s), false) = (&found, never)
-            && *s < until
-            && steps > PATIENCE
-        {
-            (found, never) = search(self, steps);
+    /// The first event of a flight in so many windows.
+    #[inline(always)] // a copy of the result costs as much as all else here
+    fn first_event(&mut self, flight: &MachineFlight, until: f64, steps: u32) -> Found {
+        self.touches.clear();
+        first_event(flight, until, steps, &mut self.buffers, &mut self.touches)
+    }
+
+    /// Goes on with a flight that has no event before a time `s`: in all windows if it is not shown that there is none ever. Returns
+    /// whether this is shown; then the closed form holds as long as it is wanted.
+    #[inline(never)]
+    fn search_on(&mut self, flight: &MachineFlight, (s, until): (f64, f64), recovers: bool, found: &mut Found) -> bool {
+        let never =
+            |motion: &mut Self, s: f64| !recovers && flight.never_after(s, &motion.normal, &mut motion.buffers.modes);
+        let mut is_free = never(self, s);
+        if !is_free && s < until && self.limits.steps > PATIENCE {
+            *found = self.first_event(flight, until, self.limits.steps);
+            if let Found::NoneBefore(s) = *found {
+                is_free = never(self, s);
+            }
         }
-        // the closed form holds as long as it is wanted
-        if never { (Found::NoneBefore(until), true) } else { (found, false) }
+        if is_free {
+            *found = Found::NoneBefore(until);
+        }
+        is_free
     }
 
     /// Announces where gaps touch zero on the way; the flight of the motion goes on.

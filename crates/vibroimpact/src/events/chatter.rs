@@ -181,11 +181,7 @@ impl Motion<'_> {
             add_scaled(&mut push, force, &along);
             add_scaled(&mut push_rate, rate, &along);
         }
-        let mut damped = self.normal.damping.apply(&push);
-        for closed in &structure.closed {
-            let w = &self.normal.directions[closed.place];
-            add_scaled(&mut damped, closed.law.1 * dot(w, &push), w);
-        }
+        let damped = structure.damped(&self.normal, &push);
         let of = |(j, rebound): (&usize, &f64)| {
             let along = kept.beside(&directions[*j])?;
             let a = dot(&along, &push);

@@ -152,7 +152,7 @@ impl Place {
     }
 
     /// The state here, each gap, how many derivatives of each guard are zero, and the surfaces.
-    #[inline]
+    #[inline(always)] // a copy of what it returns takes time
     #[allow(clippy::type_complexity)] // closures have no other name
     fn begin<'a>(
         &'a self,

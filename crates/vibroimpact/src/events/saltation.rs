@@ -5,8 +5,16 @@
 //! $$`S = DR + \frac{(F_+ - DR\,F_- - R_t)\,h_z}{h_t + h_zF_-}`$$
 //!
 //! between the flows $`F_-`$ and $`F_+`$ before and after it (M. di Bernardo, C. J. Budd, A. R. Champneys and P. Kowalczyk,
-//! *Piecewise-smooth Dynamical Systems*, Springer 2008, section 2.5, doi:10.1007/978-1-84628-708-4). A chatter that is
-//! summed has the derivative of an impact without rebound.
+//! *Piecewise-smooth Dynamical Systems*, Springer 2008, section 2.5, doi:10.1007/978-1-84628-708-4).
+//!
+//! Where stops are at rest afterwards, at the end of a chatter that is summed or after an impact without rebound, the derivative is that
+//! of the end. The impulses act along the directions of the stops that are at rest then, and take away what differs along these, from coordinates and velocities, whatever the order of impacts.
+//! With the projections $`P_x`$ and $`P_v`$ on what is left, and the damping matrix C, the rest is
+//!
+//! $$`\delta x_+ = P_x\,\delta x_-, \qquad \delta v_+ = P_v\,(\delta v_- + C\,(1 - P_x)\,\delta x_-),`$$
+//!
+//! because what dampers take from velocities depends on the way only. The rates of the guards, which are rounding errors at the end of
+//! a chatter, are not needed.
 //!
 //! Several guards that are zero at one time each change the state by a part of $`F_+ - DR\,F_- - R_t`$, and neighbours reach
 //! each of them at a time of its own, so the second term is a sum over the guards. The parts are those of each guard alone.
@@ -18,7 +26,7 @@ use super::passage::Passage;
 use super::place::{Place, Structures};
 use crate::machine::{Machine, Opening, StopLaw};
 use crate::math::{Lu, Matrix, add_scaled, dot};
-use crate::regime::{ContactState, GuardKind, Normal, Structure};
+use crate::regime::{ContactState, GuardKind, Normal, Orthonormal, Structure};
 use std::sync::Arc;
 
 /// What the state of a machine consists of: mass-normalised coordinates, velocities, and the surfaces of damped stops that
@@ -234,7 +242,7 @@ impl LinearEvent {
     ) -> Option<Self> {
         let (reset, reset_rate) = law.reset(shape, normal, before, after)?;
         let flow_before = shape.flow(law.structure, normal, before);
-        let jump = jump((&reset, &reset_rate), &flow_before, &shape.flow(next, normal, after));
+        let jump = law.jump(shape, normal, (before, after), (&flow_before, next), (&reset, &reset_rate));
         // one guard has the whole change
         let jumps = if law.guards.len() < 2 {
             vec![jump]
@@ -261,25 +269,67 @@ impl LinearEvent {
 
     /// The derivative of the state after the event; `None` where a guard is only touched.
     pub(crate) fn saltation(&self) -> Option<Matrix> {
-        let mut result = self.reset.clone();
-        for guard in &self.guards {
+        self.derivative().map(EventDerivative::matrix)
+    }
+
+    fn derivative(&self) -> Option<EventDerivative> {
+        let late = |guard: &LinearGuard| {
             // the guard is only touched: neighbours miss it or not, and the derivative grows without bound
-            if guard.rate == 0.0 || !guard.rate.is_finite() {
-                return None;
-            }
-            result.add_outer(1.0 / guard.rate, &guard.jump, &guard.gradient);
-        }
-        Some(result)
+            let crosses = guard.rate != 0.0 && guard.rate.is_finite();
+            crosses.then(|| (guard.jump.iter().map(|jump| jump / guard.rate).collect(), guard.gradient.clone()))
+        };
+        let late = self.guards.iter().map(late).collect::<Option<_>>()?;
+        Some(EventDerivative { reset: self.reset.clone(), late })
     }
 }
 
-/// $`F_+ - DR\,F_- - R_t`$.
-fn jump((reset, reset_rate): (&Matrix, &[f64]), flow_before: &[f64], flow_after: &[f64]) -> Vec<f64> {
-    // DR F_-
-    let carried = reset.apply(flow_before);
-    let after = flow_after.iter().zip(carried.iter().zip(reset_rate));
-    after.map(|(after, (carried, rate))| after - carried - rate).collect()
+impl EventLaw<'_> {
+    /// $`F_+ - DR\,F_- - R_t`$ between two states, of which the second is in the regime of `next`. Contacts push along their
+    /// directions, and beside these only dampers feel that velocities have changed. So rounding errors of forces, divided by the
+    /// speed of a slow impact, do not act on what the event does not reach.
+    fn jump(
+        &self,
+        shape: &StateShape,
+        normal: &Normal,
+        (before, after): (&Place, &Place),
+        (flow_before, next): (&[f64], &Arc<Structure>),
+        (reset, reset_rate): (&Matrix, &[f64]),
+    ) -> Vec<f64> {
+        // DR F_-
+        let carried = reset.apply(flow_before);
+        let terms = carried.iter().zip(reset_rate);
+        let mut jump: Vec<f64> = shape
+            .flow(next, normal, after)
+            .iter()
+            .zip(terms)
+            .map(|(after, (carried, rate))| after - carried - rate)
+            .collect();
+        let guards = self.guards.iter().map(|g| self.structure.guards[*g].kind.place(before.surfaces.len()));
+        let changed = (0..before.states.len()).filter(|at| before.states[*at] != after.states[*at]);
+        let held = self.structure.held.iter().chain(&next.held).copied();
+        let acting = self.pushed.iter().map(|(j, _)| *j).chain(guards).chain(changed).chain(held);
+        let along = Orthonormal::spanning(acting.map(|at| &normal.directions[at]));
+        let faster: Vec<f64> = after.v.iter().zip(&before.v).map(|(after, before)| after - before).collect();
+        let mut slowed = next.damped(normal, &faster);
+        along.remove(&mut slowed);
+        for part in [0..shape.n, shape.n..2 * shape.n] {
+            let mut beside = jump[part.clone()].to_vec();
+            along.remove(&mut beside);
+            add_scaled(&mut jump[part], -1.0, &beside);
+        }
+        add_scaled(&mut jump[shape.n..2 * shape.n], -1.0, &slowed);
+        jump
+    }
 }
+
+/// A sum of terms of this size, or 0 if it is a rounding error of them: divided by the speed of an impact it would act on bodies that the
+/// impact does not reach.
+fn unless_rounding(sum: f64, size: f64) -> f64 {
+    if sum.abs() <= ROUNDED * size { 0.0 } else { sum }
+}
+
+/// What is below this part of its terms is a rounding error.
+const ROUNDED: f64 = 64.0 * f64::EPSILON;
 
 impl EventLaw<'_> {
     /// The parts of several guards of the change of the flow, whose sum is `jump_of_all`: what each of them does alone, and an
@@ -299,6 +349,7 @@ impl EventLaw<'_> {
         }
         let groups = self.groups(normal, states.0.surfaces.len());
         let mut left = jump_of_all.to_vec();
+        let mut sizes: Vec<f64> = jump_of_all.iter().map(|jump| jump.abs()).collect();
         for group in &groups {
             // if all act on each other, the whole change is theirs; one alone has been computed
             let mut own = match &group[..] {
@@ -309,6 +360,7 @@ impl EventLaw<'_> {
             // what no group explains is left for all
             if groups.len() > 1 {
                 add_scaled(&mut left, -1.0, &own);
+                sizes.iter_mut().zip(&own).for_each(|(size, own)| *size += own.abs());
             } else {
                 left.fill(0.0);
             }
@@ -317,6 +369,7 @@ impl EventLaw<'_> {
             let part = 1.0 / count(group);
             group.iter().for_each(|k| add_scaled(&mut shares[*k], part, &own));
         }
+        left.iter_mut().zip(sizes).for_each(|(left, size)| *left = unless_rounding(*left, size));
         let part = 1.0 / count(&shares);
         shares.iter_mut().for_each(|share| add_scaled(share, part, &left));
         Some(shares)
@@ -362,24 +415,29 @@ impl EventLaw<'_> {
         // with these contacts alone the machine has no regime; the whole change is then divided with the rest
         let Some(next) = structure(&reached.states) else { return Some(vec![0.0; flow_before.len()]) };
         let (reset, rate) = own.reset(shape, normal, before, &reached)?;
-        Some(jump((&reset, &rate), flow_before, &shape.flow(&next, normal, &reached)))
+        Some(own.jump(shape, normal, (before, &reached), (flow_before, &next), (&reset, &rate)))
     }
 
-    /// The guards that act on each other by impulses, whose directions are not at right angles, as places in the list of guards.
+    /// The guards that act on each other by impulses, as places in the list of guards: their directions are not at right angles, or
+    /// those of contacts between them that push or hold are not.
     fn groups(&self, normal: &Normal, stops: usize) -> Vec<Vec<usize>> {
-        let direction = |k: usize| &normal.directions[self.structure.guards[self.guards[k]].kind.place(stops)];
+        let guards = self.guards.iter().map(|g| self.structure.guards[*g].kind.place(stops));
+        let between = self.pushed.iter().map(|(j, _)| *j).chain(self.structure.held.iter().copied());
+        let contacts: Vec<usize> = guards.chain(between).collect();
         let act = |i: usize, j: usize| {
-            let (a, b) = (direction(i), direction(j));
+            let (a, b) = (&normal.directions[contacts[i]], &normal.directions[contacts[j]]);
             dot(a, b).abs() > ACTING * (dot(a, a) * dot(b, b)).sqrt()
         };
         let mut groups: Vec<Vec<usize>> = Vec::new();
-        for k in 0..self.guards.len() {
-            // a guard joins all groups it acts on, and makes them one
+        for k in 0..contacts.len() {
+            // a contact joins all groups it acts on, and makes them one
             let (with, mut others): (Vec<Vec<usize>>, Vec<Vec<usize>>) =
                 groups.into_iter().partition(|group| group.iter().any(|other| act(*other, k)));
             others.push(with.into_iter().flatten().chain([k]).collect());
             groups = others;
         }
+        groups.iter_mut().for_each(|group| group.retain(|k| *k < self.guards.len()));
+        groups.retain(|group| !group.is_empty());
         groups
     }
 }
@@ -465,6 +523,90 @@ fn back_surfaces(
     }
 }
 
+/// The derivative of the state after an event by that before it, $`DR + \sum_k u_kh_k'`$ in parts, because those of slow impacts are
+/// many powers of ten larger than the others.
+#[derive(Clone, Debug)]
+pub(crate) struct EventDerivative {
+    /// $`DR`$.
+    pub(crate) reset: Matrix,
+    /// The change of the state for a change of each guard, and the gradient of the guard.
+    pub(crate) late: Vec<(Vec<f64>, Vec<f64>)>,
+}
+
+impl EventDerivative {
+    /// That of the event at the end of a step; `None` where a guard is only touched.
+    pub(super) fn of(
+        shape: &StateShape,
+        machine: &Machine,
+        normal: &Normal,
+        structures: &mut Structures,
+        passage: &Passage,
+    ) -> Option<Self> {
+        let after = passage.after.as_ref()?;
+        let rest = match &passage.rest {
+            Some((rest, _)) => rest.clone(),
+            None => structures.get(machine, normal, &after.states)?,
+        };
+        if let Some(reset) = at_rest(shape, normal, passage, &rest) {
+            return Some(Self { reset, late: Vec::new() });
+        }
+        LinearEvent::of(shape, machine, normal, structures, passage)?.derivative()
+    }
+
+    /// As one matrix.
+    fn matrix(mut self) -> Matrix {
+        self.late.iter().for_each(|(late, gradient)| self.reset.add_outer(1.0, late, gradient));
+        self.reset
+    }
+}
+
+/// The derivative of the state at rest, in the structure `rest`, by that before the impact after which stops are at rest: of a chatter
+/// that was summed, or of an impact without rebound. `None` if another guard is zero too, if a contact ends, or after a single impact
+/// if another one changes.
+fn at_rest(shape: &StateShape, normal: &Normal, passage: &Passage, rest: &Structure) -> Option<Matrix> {
+    let (before, after) = (passage.before.as_ref()?, passage.after.as_ref()?);
+    let rests = |j: usize| after.states[j].constrains() && !before.states[j].constrains();
+    let guard = |g: &usize| passage.structure.guards[*g].kind;
+    let lands = |g: &usize| matches!(guard(g), GuardKind::Gap(j) if rests(j));
+    let zero = |at: usize| passage.guards.iter().any(|g| guard(g).place(before.surfaces.len()) == at);
+    let stays = before.states.iter().zip(&after.states).enumerate().all(|(at, (was, now))| match passage.rest {
+        Some(_) => now.constrains() || !was.constrains(),
+        None => was == now || zero(at),
+    });
+    if !stays || !passage.guards.iter().all(lands) {
+        return None;
+    }
+    // a joint that holds has lost its velocity, and keeps where it is
+    let (stops, joints): (Vec<usize>, Vec<usize>) = rest.held.iter().partition(|at| **at < before.surfaces.len());
+    let direction = |at: &usize| &normal.directions[*at];
+    let holding = Orthonormal::spanning(joints.iter().map(direction));
+    let beside: Vec<Vec<f64>> = stops.iter().filter_map(|at| holding.beside(direction(at))).collect();
+    let resting = Orthonormal::spanning(beside.iter());
+    let n = shape.n;
+    let mut result = Matrix::identity(shape.size());
+    for j in 0..n {
+        let mut left = vec![0.0; n];
+        left[j] = 1.0;
+        let mut lost = left.clone();
+        resting.remove(&mut left);
+        add_scaled(&mut lost, -1.0, &left);
+        let mut slowed = rest.damped(normal, &lost);
+        let mut kept = left.clone();
+        for velocity in [&mut slowed, &mut kept] {
+            resting.remove(velocity);
+            holding.remove(velocity);
+        }
+        for i in 0..n {
+            result[(i, j)] = left[i];
+            result[(n + i, j)] = slowed[i];
+            result[(n + i, n + j)] = kept[i];
+        }
+    }
+    let turns = before.turns(normal);
+    back_surfaces(shape, normal, (before, after), &turns, (&mut result, &mut vec![0.0; shape.size()]));
+    Some(result)
+}
+
 /// The derivative of the state at the end of a step by the state at `begin`, its beginning; `None` where a guard is only
 /// touched.
 pub(crate) fn step_derivative(
@@ -479,8 +621,7 @@ pub(crate) fn step_derivative(
     if passage.guards.is_empty() {
         return Some(flight);
     }
-    let event = LinearEvent::of(shape, machine, normal, structures, passage)?;
-    let through = event.saltation()?.times(&flight);
+    let through = EventDerivative::of(shape, machine, normal, structures, passage)?.matrix().times(&flight);
     Some(match (&passage.rest, &passage.after) {
         (Some((rest, time)), Some(after)) => shape.transition(rest, normal, after, *time).times(&through),
         _ => through,

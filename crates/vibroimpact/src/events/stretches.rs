@@ -1,7 +1,7 @@
 //! A motion as functions of time: one stretch in closed form after another, between its events.
 
 use super::contact_force::contact_forces;
-use super::event::{End, Limits, Start};
+use super::event::{Limits, Start};
 use super::motion::Motion;
 use super::sample::Sample;
 use super::stretch::Stretch;
@@ -62,12 +62,6 @@ impl<'a> Stretches<'a> {
         }
         self.begun = true;
         true
-    }
-
-    /// Why there is no further stretch; `None` while there may be one.
-    #[must_use]
-    pub fn end_of_motion(&self) -> Option<End> {
-        self.motion.end()
     }
 
     /// The time at which the present stretch begins.

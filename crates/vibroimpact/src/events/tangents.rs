@@ -9,16 +9,18 @@
 
 use super::passage::Passage;
 use super::place::{Place, Structures};
-use super::saltation::{LinearEvent, StateShape};
+use super::saltation::{EventDerivative, StateShape};
 use crate::arc::combined;
 use crate::machine::Machine;
-use crate::math::{Matrix, add_scaled, dot, ln};
+use crate::math::{Graded, GradedFactors, Matrix, add_scaled, dot, ln};
 use crate::regime::{Normal, Structure};
 use std::sync::Arc;
 
 /// Where neighbouring motions can become the same, a difference that becomes less than this part of what it can become has
 /// vanished: it is a rounding error.
 const VANISHED: f64 = 1e-12;
+/// A change that differs by no more than this part of it from what others span depends on them.
+const DEPENDENT: f64 = 1e-9;
 /// A structure without modes is followed in parts of this time at the fastest rate of decay.
 const PART: f64 = 4.0;
 
@@ -63,7 +65,7 @@ pub(crate) enum TangentStep {
     /// A flight in one regime from a state, over a time.
     Flight(Arc<Structure>, Box<Place>, f64),
     /// An event with its derivative, and whether neighbouring motions can become the same in it.
-    Event(Matrix, bool),
+    Event(EventDerivative, bool),
 }
 
 /// How a frame has been stretched: $`R = L\,\mathrm{diag}(e^{s})\,U`$ with upper triangular factors, for the vectors of the
@@ -100,12 +102,12 @@ pub(crate) fn tangent_steps(
         return Some(steps);
     }
     let after = passage.after.as_ref()?;
-    let event = LinearEvent::of(shape, machine, normal, structures, passage)?;
+    let event = EventDerivative::of(shape, machine, normal, structures, passage)?;
     // a contact that begins to constrain takes differences away
     let constrained = begin.states.iter().zip(&after.states).any(|(was, now)| now.constrains() && !was.constrains());
     // and so does an impact without rebound
     let forgets = constrained || passage.pushed.iter().any(|(_, restitution)| *restitution == 0.0);
-    steps.push(TangentStep::Event(event.saltation()?, forgets));
+    steps.push(TangentStep::Event(event, forgets));
     if let Some((rest, time)) = &passage.rest {
         steps.push(flight(rest, after, *time));
     }
@@ -124,9 +126,9 @@ impl TangentStep {
     ) -> Vec<FrameChange> {
         match self {
             Self::Event(derivative, forgets) => {
-                let vectors = frame.iter().map(|vector| derivative.apply(vector)).collect();
-                let least = if *forgets { VANISHED * metric.largest(derivative) } else { 0.0 };
-                vec![orthonormal(frame, (vectors, remove), (metric, least))]
+                let (rows, back) = after_event(derivative, frame, (metric, remove));
+                let vanished = if *forgets { VANISHED } else { 0.0 };
+                vec![factored(frame, (rows.factors(frame.len(), vanished), &back), (metric, remove))]
             }
             Self::Flight(structure, from, time) => {
                 if frame.is_empty() {
@@ -173,10 +175,61 @@ fn graded(
             back.push(unit);
         }
     }
-    let factors = rows.factors(frame.len());
+    let factors = rows.factors(frame.len(), 0.0);
+    Some(factored(frame, (factors, &back), (metric, remove)))
+}
+
+/// The frame after an event, as rows: what each vector has along the changes by which guards are late, which can be many powers of
+/// ten larger than all else, and its components apart from these; with the states that belong to the rows.
+fn after_event(
+    EventDerivative { reset, late }: &EventDerivative,
+    frame: &[Vec<f64>],
+    (metric, remove): (&Metric, &impl Fn(&mut Vec<f64>)),
+) -> (Graded, Vec<Vec<f64>>) {
+    let mut images: Vec<Vec<f64>> = frame.iter().map(|vector| reset.apply(vector)).collect();
+    let mut changes: Vec<Vec<f64>> = late.iter().map(|(late, _)| late.clone()).collect();
+    images.iter_mut().chain(&mut changes).for_each(remove);
+    let mut back: Vec<Vec<f64>> = Vec::new();
+    for change in &changes {
+        let mut left = change.clone();
+        for other in back.iter().chain(&back) {
+            let part = metric.product(other, &left);
+            add_scaled(&mut left, -part, other);
+        }
+        let size = metric.product(&left, &left).sqrt();
+        if size > DEPENDENT * metric.product(change, change).sqrt() {
+            back.push(left.iter().map(|x| x / size).collect());
+        }
+    }
+    let mut rows = Graded::default();
+    for along in &back {
+        let mut row: Vec<f64> = Vec::with_capacity(frame.len());
+        for (image, vector) in images.iter_mut().zip(frame) {
+            let own = metric.product(along, image);
+            add_scaled(image, -own, along);
+            let by_guards = changes.iter().zip(late);
+            row.push(by_guards.fold(own, |sum, (change, (_, h))| sum + metric.product(along, change) * dot(h, vector)));
+        }
+        rows.push(row, 0.0);
+    }
+    for i in 0..reset.rows() {
+        rows.push(images.iter().map(|image| image[i]).collect(), 0.0);
+        let mut unit = vec![0.0; reset.rows()];
+        unit[i] = 1.0;
+        back.push(unit);
+    }
+    (rows, back)
+}
+
+/// Moves a frame to the vectors with these factors, by rows that belong to the states `back`.
+fn factored(
+    frame: &mut Vec<Vec<f64>>,
+    (factors, back): (GradedFactors, &[Vec<f64>]),
+    (metric, remove): (&Metric, &impl Fn(&mut Vec<f64>)),
+) -> FrameChange {
     // the vectors with a scale: the others have vanished
     let there: Vec<usize> = (0..frame.len()).filter(|j| factors.scales[*j] > f64::NEG_INFINITY).collect();
-    let vectors = there.iter().map(|j| combined(&back, &factors.lower[*j])).collect();
+    let vectors = there.iter().map(|j| combined(back, &factors.lower[*j])).collect();
     // the frame is made orthonormal once more: the triangular factors multiply
     let FrameChange { left, kept, .. } = orthonormal(frame, (vectors, remove), (metric, 0.0));
     let kept: Vec<usize> = kept.iter().map(|j| there[*j]).collect();
@@ -186,7 +239,7 @@ fn graded(
             right[(i, j)] = factors.upper[(*row, *column)];
         }
     }
-    Some(FrameChange { left, scales: kept.iter().map(|j| factors.scales[*j]).collect(), right, kept })
+    FrameChange { left, scales: kept.iter().map(|j| factors.scales[*j]).collect(), right, kept }
 }
 
 /// Makes vectors orthonormal, in the place of a frame. Those that are left with no more than `least` beside the ones before them

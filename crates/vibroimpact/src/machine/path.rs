@@ -14,32 +14,18 @@ use super::parts::{FrictionJoint, HarmonicForce, HarmonicMotion, MachineParts, S
 use super::{Fault, MachineError};
 use crate::math::Matrix;
 
-/// The number at a path.
-pub(super) fn get(parts: &MachineParts, path: &str) -> Result<f64, MachineError> {
-    // the same places serve reading and writing
-    let mut copy = parts.clone();
-    places(&mut copy, path).map(|found| match found {
-        Places::One(place) => *place,
-        Places::Matrix(matrix, i, j) => matrix[(i, j)],
-    })
-}
-
-/// Sets the number at a path.
-pub(super) fn set(parts: &mut MachineParts, path: &str, value: f64) -> Result<(), MachineError> {
-    match places(parts, path)? {
-        Places::One(place) => *place = value,
-        Places::Matrix(matrix, i, j) => (matrix[(i, j)], matrix[(j, i)]) = (value, value),
-    }
-    Ok(())
-}
-
 impl MachineParts {
     /// The number at a path, as `stop.wall.gap`. Vectors and matrices must have the sizes of the coordinates.
     ///
     /// # Errors
     /// [`MachineError`] if the path leads to no number.
     pub fn number(&self, path: &str) -> Result<f64, MachineError> {
-        get(self, path)
+        // the same places serve reading and writing
+        let mut copy = self.clone();
+        places(&mut copy, path).map(|found| match found {
+            Places::One(place) => *place,
+            Places::Matrix(matrix, i, j) => matrix[(i, j)],
+        })
     }
 
     /// Sets the number at a path. A number of a symmetric matrix changes in both places.
@@ -47,7 +33,11 @@ impl MachineParts {
     /// # Errors
     /// [`MachineError`] if the path leads to no number.
     pub fn set(&mut self, path: &str, value: f64) -> Result<(), MachineError> {
-        set(self, path, value)
+        match places(self, path)? {
+            Places::One(place) => *place = value,
+            Places::Matrix(matrix, i, j) => (matrix[(i, j)], matrix[(j, i)]) = (value, value),
+        }
+        Ok(())
     }
 }
 

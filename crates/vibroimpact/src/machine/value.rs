@@ -94,7 +94,7 @@ impl Machine {
     /// # Errors
     /// [`MachineError`] if the path leads to no number.
     pub fn number(&self, path: &str) -> Result<f64, MachineError> {
-        path::get(&self.parts, path)
+        self.parts.number(path)
     }
 
     /// The same machine with another number at a path. A number of a symmetric matrix changes in both places.
@@ -103,7 +103,7 @@ impl Machine {
     /// [`MachineError`] if the path leads to no number, or if the number is not allowed.
     pub fn with(&self, path: &str, value: f64) -> Result<Self, MachineError> {
         let mut parts = self.parts.clone();
-        path::set(&mut parts, path, value)?;
+        parts.set(path, value)?;
         Self::new(parts)
     }
 

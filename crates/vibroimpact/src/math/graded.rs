@@ -30,16 +30,24 @@ impl Graded {
     }
 
     /// Its factors, by elimination in which the largest element of a column, with the size of its row, is the pivot. Each
-    /// column has the digits that its own size allows, however small its row is beside others. A matrix without rows has so
+    /// column has the digits that its own size allows, however small its row is beside others. What is left of an element and is
+    /// no more than the part `vanished` of the largest of its row is a rounding error. A matrix without rows has so
     /// many columns of zeros.
-    pub(crate) fn factors(mut self, columns: usize) -> GradedFactors {
+    pub(crate) fn factors(mut self, columns: usize, vanished: f64) -> GradedFactors {
         let mut left: Vec<usize> = (0..self.rows.len()).collect();
+        let largest = |row: &Vec<f64>| row.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let least: Vec<f64> = self.rows.iter().map(|row| vanished * largest(row)).collect();
         let mut factors = GradedFactors {
             lower: Vec::with_capacity(columns),
             scales: Vec::with_capacity(columns),
             upper: Matrix::zeros(columns, columns),
         };
         for j in 0..columns {
+            for i in &left {
+                if self.rows[*i][j].abs() <= least[*i] {
+                    self.rows[*i][j] = 0.0;
+                }
+            }
             let size = |i: usize| self.scales[i] + ln(self.rows[i][j].abs());
             let pivot = (0..left.len()).max_by(|a, b| size(left[*a]).total_cmp(&size(left[*b])));
             let mut lower = vec![0.0; self.rows.len()];
@@ -77,7 +85,7 @@ mod tests {
     #[test]
     fn factors_of_rows_of_any_size() {
         let rows = vec![vec![0.3, -1.0, 0.7], vec![1.1, 0.4, -0.2], vec![-0.6, 0.9, 1.3]];
-        let of = |scales: [f64; 3]| Graded { rows: rows.clone(), scales: scales.to_vec() }.factors(3);
+        let of = |scales: [f64; 3]| Graded { rows: rows.clone(), scales: scales.to_vec() }.factors(3, 0.0);
         let factors = of([0.0, 1.0, -2.0]);
         for (i, (row, scale)) in rows.iter().zip([0.0_f64, 1.0, -2.0]).enumerate() {
             for (j, value) in row.iter().enumerate() {
@@ -101,9 +109,9 @@ mod tests {
 
     #[test]
     fn dependent_columns() {
-        let factors = Graded { rows: vec![vec![1.0, 2.0, 0.5]], scales: vec![-3.0] }.factors(3);
+        let factors = Graded { rows: vec![vec![1.0, 2.0, 0.5]], scales: vec![-3.0] }.factors(3, 0.0);
         assert_eq!(factors.scales, vec![-3.0, f64::NEG_INFINITY, f64::NEG_INFINITY]);
         // all directions are held
-        assert_eq!(Graded::default().factors(2).scales, vec![f64::NEG_INFINITY; 2]);
+        assert_eq!(Graded::default().factors(2, 0.0).scales, vec![f64::NEG_INFINITY; 2]);
     }
 }

@@ -38,6 +38,11 @@ impl Orthonormal {
         basis
     }
 
+    /// Takes away from a vector what it has along these.
+    pub(crate) fn remove(&self, vector: &mut [f64]) {
+        project(&self.0, vector);
+    }
+
     /// What is left of a direction beside these; `None` if it depends on these.
     pub(crate) fn beside(&self, direction: &[f64]) -> Option<Vec<f64>> {
         let mut left = direction.to_vec();

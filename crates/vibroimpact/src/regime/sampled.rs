@@ -92,8 +92,8 @@ impl Sampled {
     pub(super) fn new(of: Moved<'_>, guards: &[&Observable]) -> Option<Self> {
         // the tables leave out time and one, which only ramps need
         let ramps = of.drive.iter().chain(guards.iter().map(|guard| &guard.signal)).any(|signal| signal.ramp != 0.0);
-        let levels = levels(of);
-        let fastest = levels.first().map_or(0.0, |(_, rate)| *rate);
+        let levels = levels(of, false);
+        let fastest = levels.first().map_or(0.0, |level| level.rate);
         if ramps || of.modes.is_empty() || fastest <= 0.0 {
             return None;
         }
@@ -101,7 +101,10 @@ impl Sampled {
         let step = STEP / fastest;
         Some(Self {
             grows: parts.iter().zip(of.modes).any(|(part, mode)| part.growth + part.loose * mode.d > 0.0),
-            spans: levels.iter().map(|(faint, rate)| Span::new(of, guards, (&parts, faint), STEP / rate)).collect(),
+            spans: levels
+                .iter()
+                .map(|level| Span::new(of, guards, (&parts, &level.faint), STEP / level.rate))
+                .collect(),
             series: (0..of.modes.len()).flat_map(|i| series(of, i, step)).collect(),
             guards: guards.iter().map(|guard| GuardParts::new(of, &parts, guard, step)).collect(),
             parts,

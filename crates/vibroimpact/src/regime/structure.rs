@@ -198,6 +198,16 @@ impl Structure {
         self.driven.iter().copied().fold(0.0, f64::max)
     }
 
+    /// What dampers and closed stops take from velocities that are these, in a unit of time.
+    pub(crate) fn damped(&self, normal: &Normal, velocities: &[f64]) -> Vec<f64> {
+        let mut damped = normal.damping.apply(velocities);
+        for closed in &self.closed {
+            let w = &normal.directions[closed.place];
+            add_scaled(&mut damped, closed.law.1 * dot(w, velocities), w);
+        }
+        damped
+    }
+
     /// The fastest rate of the free motion and of the forcing.
     pub(crate) const fn fastest(&self) -> f64 {
         self.fastest

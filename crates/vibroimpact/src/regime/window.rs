@@ -63,28 +63,27 @@ pub(crate) struct Faint {
 
 /// What is faint in windows of one length: whole modes, and the fast decays of modes; and the fastest rate of the others and of
 /// the forcing.
-struct Level {
-    faint: Vec<usize>,
+#[derive(Clone, Debug, Default)]
+pub(super) struct Level {
+    pub(super) faint: Vec<usize>,
     decaying: Vec<usize>,
-    rate: f64,
+    pub(super) rate: f64,
 }
 
-/// The levels of windows of all useful lengths.
-fn window_levels(of: Moved<'_>) -> Vec<Level> {
+/// The levels of windows of all useful lengths; `decays` says whether fast decays alone can be faint.
+pub(super) fn levels(of: Moved<'_>, decays: bool) -> Vec<Level> {
     // rate, mode, whether only its fast decay is left out
     let mut parts: Vec<(f64, usize, bool)> = Vec::new();
     for (i, mode) in of.modes.iter().enumerate() {
-        match mode.decays.filter(|(_, fast)| *fast >= FAR * of.rate() && of.drive[i].ramp == 0.0) {
+        match mode.decays.filter(|(_, fast)| decays && *fast >= FAR * of.rate() && of.drive[i].ramp == 0.0) {
             Some((slow, _)) => parts.extend([(mode.rate, i, true), (slow, i, false)]),
             None => parts.push((mode.rate, i, false)),
         }
     }
-    if !parts.iter().any(|(.., decaying)| *decaying) {
-        return levels(of).into_iter().map(|(faint, rate)| Level { faint, decaying: Vec::new(), rate }).collect();
-    }
+    let decays = parts.iter().any(|(.., decaying)| *decaying);
     sort_by(&mut parts, |one, other| one.0.total_cmp(&other.0));
     let mut all: Vec<Level> = Vec::new();
-    let mut level = Level { faint: Vec::new(), decaying: Vec::new(), rate: 0.0 };
+    let mut level = Level::default();
     // from the fastest part on, one part after another is left out, until one has to stay in all windows
     loop {
         let rate = parts.last().map_or(0.0, |(rate, ..)| *rate).max(of.rate());
@@ -92,13 +91,11 @@ fn window_levels(of: Moved<'_>) -> Vec<Level> {
         if all.is_empty() || (rate > 0.0 && rate <= SLOWER * last) {
             // not to fall from a long window to a very short one before each event
             let mut between = last / LONGER;
-            while between.is_finite() && between > SLOWER * LONGER * rate {
-                let (faint, decaying) = (level.faint.clone(), level.decaying.clone());
-                all.push(Level { faint, decaying, rate: between });
+            while decays && between.is_finite() && between > SLOWER * LONGER * rate {
+                all.push(Level { rate: between, ..level.clone() });
                 between /= LONGER;
             }
-            let (faint, decaying) = (level.faint.clone(), level.decaying.clone());
-            all.push(Level { faint, decaying, rate });
+            all.push(Level { rate, ..level.clone() });
         }
         let Some((_, i, decaying)) = parts.pop() else { break };
         let mode = &of.modes[i];
@@ -152,30 +149,7 @@ impl Moved<'_> {
 
 /// Windows of all useful lengths, the shortest first, in which no mode is faint.
 pub(crate) fn windows(of: Moved<'_>, guards: &[&Observable]) -> Vec<Window> {
-    window_levels(of).iter().map(|level| Window::new(of, guards, level)).collect()
-}
-
-/// The modes that are faint, and the fastest rate of the others and of the forcing, in windows of all useful lengths.
-pub(super) fn levels(of: Moved<'_>) -> Vec<(Vec<usize>, f64)> {
-    let mut order: Vec<usize> = (0..of.modes.len()).collect();
-    sort_by(&mut order, |i, j| of.modes[*i].rate.total_cmp(&of.modes[*j].rate));
-    let mut all = Vec::new();
-    let mut last = f64::INFINITY;
-    for kept in (0..=order.len()).rev() {
-        if let Some(left) = order.get(kept) {
-            let mode = &of.modes[*left];
-            // such a mode has no steady response as slow as the forcing: it, and all slower ones, stay in every window
-            if mode.k <= 0.0 || mode.omega < FAR * of.rate() || of.drive[*left].ramp != 0.0 {
-                break;
-            }
-        }
-        let rate = order[..kept].last().map_or(0.0, |i| of.modes[*i].rate).max(of.rate());
-        if all.is_empty() || (rate > 0.0 && rate <= SLOWER * last) {
-            last = rate;
-            all.push((order[kept..].to_vec(), rate));
-        }
-    }
-    all
+    levels(of, true).iter().map(|level| Window::new(of, guards, level)).collect()
 }
 
 impl Window {

@@ -234,3 +234,39 @@ fn f42t_exponents_do_not_depend_on_units() {
         }
     }
 }
+
+/// Rows of eight bodies on springs to the ground that collapse onto each other in turn, in some hundred impacts down to rounding errors.
+/// Springs and dampers to the ground are as the masses, and what acts between bodies moves no mean, so the mean of the row is a damped
+/// oscillator by itself, whatever strikes: $`e^{(-c/2 \pm i\omega)T}`$ are two of the multipliers. All were 0 once, because rounding errors
+/// were divided by the speeds of the last impacts; and where the last impacts were below rounding, their number was in the label.
+#[test]
+fn f42aa_a_row_that_collapses_keeps_its_mean_motion() {
+    for (restitution, frequency, stiffness, between, forces) in
+        [(0.24, 2.08, 0.3, 2.01, [0.5, 0.388, 0.48, -0.804]), (0.3, 2.0, 0.5, 2.0, [0.5, 0.4, 0.5, -0.7])]
+    {
+        let mut parts = MachineParts::new((1..=8).map(|k| format!("b{k}"))).with_frequency(frequency);
+        for i in 0..8 {
+            let mass = if i == 3 || i == 4 { 0.5 } else { 1.0 };
+            let ground = parts.along(i);
+            let force = if i < 4 { forces[i] } else { -forces[7 - i] };
+            parts =
+                parts.with_mass(i, mass).with_link(&ground, stiffness * mass, 0.1 * mass).with_force(i, 1, 0.0, force);
+        }
+        for i in 1..8 {
+            let mut along = vec![0.0; 8];
+            (along[i - 1], along[i]) = (1.0, -1.0);
+            parts = parts.with_link(&along, between, 0.05).with_rigid_stop(&format!("c{i}"), &along, 0.0, restitution);
+        }
+        let machine = Machine::new(parts).unwrap();
+        let verdict = settle_machine(&machine, &Start::default(), &SettleOptions::default()).unwrap().verdict;
+        let Verdict::Periodic(cycle) = verdict else { panic!("{}", verdict.label()) };
+        assert!(cycle.label.to_string().starts_with("inf/"), "{}", cycle.label);
+        let (omega, time) = ((stiffness - 0.0025_f64).sqrt(), cycle.period);
+        let size = (-0.05 * time).exp();
+        for sign in [1.0, -1.0] {
+            let (re, im) = (size * (omega * time).cos(), sign * size * (omega * time).sin());
+            let off = cycle.multipliers.iter().map(|of| (of.re - re).hypot(of.im - im)).fold(f64::INFINITY, f64::min);
+            assert!(off < 1e-6, "{}: {re} {im} is no multiplier: {:?}", cycle.label, cycle.multipliers);
+        }
+    }
+}

@@ -1,8 +1,8 @@
 //! The motion of a machine over a time, with its derivative by the state at the beginning.
 
 use super::frame::MachineFrame;
-use crate::events::{End, Event, Passage, Place, step_derivative};
-use crate::machine::{Stop, StopLaw};
+use crate::events::{End, Event, EventKind, Passage, Place, step_derivative};
+use crate::machine::{Machine, Stop, StopLaw};
 use crate::math::Matrix;
 use crate::regime::ContactState;
 
@@ -36,6 +36,21 @@ impl MachineLap {
         let places = self.steps.first().map_or(0, |(_, first, _)| first.states.len());
         let holds = |k: &usize| self.steps.iter().all(|(_, place, _)| place.states[*k] == ContactState::Holding);
         (0..places).filter(holds).collect()
+    }
+
+    /// Whether infinitely many impacts are in it: some were summed, or a stop with a rebound is at rest after an impact on it, because
+    /// further ones would be below rounding errors.
+    pub(crate) fn completes_chatter(&self, machine: &Machine) -> bool {
+        let rebounds = |stop: &Stop| matches!(stop.law, StopLaw::Rigid { restitution } if restitution > 0.0);
+        let struck = |place: usize, before: &[Event]| {
+            before.iter().rev().find(|event| event.place == place).is_some_and(|event| event.kind == EventKind::Impact)
+        };
+        let fades = |(k, event): (usize, &Event)| {
+            event.kind == EventKind::Stick
+                && machine.stops().get(event.place).is_some_and(rebounds)
+                && struck(event.place, &self.events[..k])
+        };
+        self.steps.iter().any(|(_, _, passage)| passage.rest.is_some()) || self.events.iter().enumerate().any(fades)
     }
 
     /// The rounding error of the derivative, in units of the sizes of coordinates and velocities.
