@@ -1,6 +1,6 @@
 //! Tests of the output of the commands, field by field.
 
-use crate::{S, json, printed, vibro};
+use crate::{S, json, printed, ran};
 use serde_json::Value;
 
 #[test]
@@ -243,12 +243,10 @@ fn an_undecided_motion_names_the_flag_that_decides_it() {
     let chaotic = "--inverse-beta 1.11 --gap 3 --restitution 0.5";
     for command in ["settle", "attractors --starts 4"] {
         let line = format!("{command} {chaotic} --impacts 50");
-        let output = vibro(&line).output().unwrap();
-        let (text, remarks) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+        let (_, text, remarks) = ran(".", &line);
         assert!(text.contains("undecided"), "{text}");
         assert!(remarks.contains("hint: --impacts 20000 follows"), "{line}: {remarks}");
-        let output = vibro(&line.replace("--impacts 50", "--impacts 20000")).output().unwrap();
-        let (text, remarks) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+        let (_, text, remarks) = ran(".", &line.replace("--impacts 50", "--impacts 20000"));
         assert!(
             text.contains("chaotic") && !text.contains("undecided") && !remarks.contains("--impacts"),
             "{text}{remarks}"

@@ -1,6 +1,6 @@
 //! Tests of the table of `vibro diagram`, row by row.
 
-use crate::{json, printed, refused, refused_in, vibro};
+use crate::{json, printed, printed_in, refused, refused_in};
 
 /// The rows of a table, without the header.
 fn table(line: &str) -> Vec<Vec<String>> {
@@ -165,9 +165,7 @@ fn both_numbers_of_a_machine_are_named() {
 fn drawn(line: &str) -> String {
     let folder = tempfile::tempdir().expect("a folder");
     let place = folder.path().join("a.svg");
-    let output = vibro(&format!("diagram --restitution 0.5 --vary gap {line} --plot")).arg(&place).output();
-    let output = output.expect("vibro runs");
-    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+    printed_in(&folder, &format!("diagram --restitution 0.5 --vary gap {line} --plot a.svg"));
     std::fs::read_to_string(place).expect("a figure is text")
 }
 
@@ -235,8 +233,8 @@ fn a_line_through_two_parameters() {
     let machine = "diagram --mass-kg 2 --stiffness-n-per-m 8000 --force-n 40 --frequency-hz 10 --gap-m 0.004 \
                    --restitution 0.7 --units si --vary damping --over 0.01:0.02:2 --also gap-m=0.004:0.005";
     assert_eq!(table(machine), table(&machine.replace("gap-m=", "gap=")));
-    let refused = vibro(&machine.replace("gap-m=", "gap_m=")).output().expect("vibro runs");
-    assert!(String::from_utf8_lossy(&refused.stderr).contains("does not begin with PARAMETER=; parameters: beta"));
+    let said = refused(&machine.replace("gap-m=", "gap_m="));
+    assert!(said.contains("does not begin with PARAMETER=; parameters: beta"));
     let rows = table(&machine.replace("gap-m=", "gap="));
     let pairs: Vec<(&str, &str)> = rows.iter().map(|row| (row[0].as_str(), row[1].as_str())).collect();
     assert!(pairs.iter().all(|pair| [("0.01", "0.004"), ("0.02", "0.005")].contains(pair)), "{pairs:?}");
@@ -246,12 +244,7 @@ fn a_line_through_two_parameters() {
 #[test]
 fn a_quantity_of_the_settled_motion() {
     let line = "diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0.5:1:3 --show impact-speed-max";
-    let said = |line: &str| {
-        let output = vibro(line).output().expect("vibro runs");
-        assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-        String::from_utf8(output.stdout).expect("text")
-    };
-    let table = said(&format!("{line} --csv -"));
+    let table = printed(&format!("{line} --csv -"));
     let rows: Vec<Vec<&str>> = table.lines().map(|row| row.split(',').collect()).collect();
     assert_eq!(rows[0], ["gap", "sweep", "kind", "impact_speed_max"]);
     assert_eq!(rows.len(), 1 + 2 * 3, "{table}");
@@ -268,12 +261,12 @@ fn a_quantity_of_the_settled_motion() {
     assert!((value("0.75", "up") - value("0.75", "down")).abs() > 0.01, "{table}");
     let machine = "diagram --mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --frequency-hz 2.5 --gap-m 0.003 --restitution 0.6 \
                    --units si --vary gap --over 0.001:0.3:4 --show";
-    let empty = said(&format!("{machine} impact_speed_mean --direction down --csv -"));
+    let empty = printed(&format!("{machine} impact_speed_mean --direction down --csv -"));
     assert!(empty.starts_with("gap_m,sweep,kind,impact_speed_mean_m_per_s\n"), "{empty}");
     assert!(empty.lines().any(|row| row == "0.3,down,none,"), "no impacts have no mean speed: {empty}");
     let folder = tempfile::tempdir().expect("a folder");
     let svg = folder.path().join("a.svg");
-    said(&format!("{machine} impact-speed-max --plot {}", svg.display()));
+    printed(&format!("{machine} impact-speed-max --plot {}", svg.display()));
     assert!(std::fs::read_to_string(svg).expect("the figure").contains("largest impact speed (m/s)"));
     for (options, sentence) in [
         ("--store a.zarr", "a diagram of a quantity is computed in memory, and has no store"),
@@ -290,6 +283,6 @@ fn a_quantity_of_the_settled_motion() {
     // a plan in a file is refused too
     let plan = r#"{"version":1,"system":{"inverse_beta":1.3,"gap":0,"restitution":0.5},"task":{"diagram":{"vary":"gap","over":"0:1:3","show":{"quantity":"power"}}}}"#;
     std::fs::write(folder.path().join("plan.json"), plan).expect("a plan");
-    let output = vibro("run plan.json").current_dir(&folder).output().expect("vibro runs");
-    assert!(String::from_utf8_lossy(&output.stderr).contains("has no store"), "{output:?}");
+    let said = refused_in(&folder, "run plan.json");
+    assert!(said.contains("has no store"), "{said}");
 }

@@ -1,7 +1,7 @@
 //! Machines that are driven by more than a force, on the command line.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use crate::{json, printed, vibro};
+use crate::{json, printed, printed_in, refused};
 
 const MACHINE: &str = "--mass-kg 0.7 --stiffness-n-per-m 900 --damping-ns-per-m 2.1 --gap-m 0.004 --restitution 0.7 \
                        --omega-rad-per-s 31 --units si";
@@ -48,10 +48,8 @@ fn a_weight_moves_the_equilibrium() {
     // 0.9 N as the weight of 0.7 kg, the same to rounding
     let gravity = format!("settle {MACHINE} --force-n 3 --gravity {:?} --second-gap-m 0.006", 0.9 / 0.7);
     assert!((gap(&json(&gravity)) - gap(&weight)).abs() < 1e-12);
-    let text = String::from_utf8(
-        vibro(&format!("settle {MACHINE} --force-n 3 --constant-force-n 0.9")).output().unwrap().stdout,
-    );
-    assert!(text.unwrap().contains("frame   positions relative to the motion of the stop, from 0.001 m"));
+    let text = printed(&format!("settle {MACHINE} --force-n 3 --constant-force-n 0.9"));
+    assert!(text.contains("frame   positions relative to the motion of the stop, from 0.001 m"));
 }
 
 /// A curve over a number that changes the unit of length is that of one gap in units of the static deflection, whether a
@@ -73,11 +71,9 @@ fn curves_over_numbers_that_change_several_parameters() {
     assert!(all.iter().all(|slope| (slope / by_force[0] - 1.0).abs() < 1e-8), "{all:?}");
 
     let base = format!("{MACHINE} --base-displacement-m 0.002");
-    let mixed =
-        vibro(&format!("curve {base} --label 1/1 --kind flip --vary gap=1:2 --and force-n=4:6")).output().unwrap();
-    let complaint = String::from_utf8_lossy(&mixed.stderr).into_owned();
-    assert!(mixed.status.code() == Some(2) && complaint.contains("hint: take frequency_hz, gap_m"), "{complaint}");
-    assert!(vibro(&format!("diagram {base} --vary gap-m --over 0.003:0.005:3")).output().unwrap().status.success());
+    let complaint = refused(&format!("curve {base} --label 1/1 --kind flip --vary gap=1:2 --and force-n=4:6"));
+    assert!(complaint.contains("hint: take frequency_hz, gap_m"), "{complaint}");
+    printed(&format!("diagram {base} --vary gap-m --over 0.003:0.005:3"));
 }
 
 /// Each value of a sweep is the machine with that value: map, response and diagram against `settle` and `attractors` at
@@ -108,12 +104,7 @@ fn each_value_of_a_sweep_is_a_machine() {
         .filter(|(name, _)| *name == flag)
         .fold(system.to_owned(), |system, (_, own)| system.replace(own, ""));
         let range = format!("{}:{}:3", values[0], values[2]);
-        let text = |line: &str| {
-            let output = vibro(line).output().unwrap();
-            assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-            String::from_utf8(output.stdout).unwrap()
-        };
-        let table = text(&format!(
+        let table = printed(&format!(
             "map {system} {rest} --{flag} {range} --starts 1 --fields impact-speed-max,displacement-max,work-per-period,impulse-max --csv -"
         ));
         let mapped: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
@@ -123,8 +114,7 @@ fn each_value_of_a_sweep_is_a_machine() {
         let line = format!(
             "map {system} {rest} --{flag} {range} --starts 1 --fields impact-speed-max,displacement-max,work-per-period,impulse-max --store m.zarr --quiet --csv -"
         );
-        let stored = vibro(&line).current_dir(&folder).output().unwrap();
-        assert_eq!(String::from_utf8(stored.stdout).unwrap(), table, "{}", String::from_utf8_lossy(&stored.stderr));
+        assert_eq!(printed_in(&folder, &line), table);
         let swept = json(&format!("response {system} {rest} --{flag} {range} --quantity impact-speed-max"));
         for value in values {
             let alone = json(&format!("settle {system} {rest} --{flag} {value} --units si"));
@@ -208,8 +198,6 @@ fn both_gaps_of_a_machine_move_together() {
     );
     let text = printed(&line);
     assert!(text.lines().any(|row| row.starts_with("-0.003,0.006,")), "{text}");
-    let missing =
-        vibro(&format!("map {} --force-n 1:3:3 --gap-m 0.004", machine.replace("--force-n 3 ", ""))).output().unwrap();
-    let complaint = String::from_utf8_lossy(&missing.stderr).into_owned();
+    let complaint = refused(&format!("map {} --force-n 1:3:3 --gap-m 0.004", machine.replace("--force-n 3 ", "")));
     assert!(complaint.contains("--starts") && !complaint.contains("a range A:B:N"), "{complaint}");
 }

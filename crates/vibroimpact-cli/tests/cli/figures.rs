@@ -1,11 +1,10 @@
 //! Tests of the look of figures: title, size, resolution, limits and greys, the same for every command.
 
-use crate::{S, refused_in, vibro};
+use crate::{S, printed_in, ran, refused_in};
 use std::path::Path;
 
 fn draw(folder: &Path, line: &str, file: &str) -> Vec<u8> {
-    let output = vibro(&format!("{line} --force")).args(["--plot", file]).current_dir(folder).output().expect("runs");
-    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+    printed_in(folder, &format!("{line} --force --plot {file}"));
     std::fs::read(folder.join(file)).expect("the figure")
 }
 
@@ -87,9 +86,8 @@ fn looks_that_are_refused() {
         ("--plot a.svg --x-limits 3", "`3` is not A:B with finite numbers"),
         ("--title words", "say how the figure looks\nhint: --plot FILE"),
     ] {
-        let output = vibro(&format!("settle {S} {options}")).current_dir(&folder).output().expect("vibro runs");
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(output.status.code().is_some_and(|code| code > 0), "{options}: {said}");
+        let (code, _, said) = ran(&folder, &format!("settle {S} {options}"));
+        assert!(code.is_some_and(|code| code > 0), "{options}: {said}");
         assert!(said.contains(sentence), "{options}: {said}");
     }
     let log = "map --beta 0.5:2:3:log --gap 1 --restitution 0.5 --starts 1 --plot a.svg --x-limits 0:2";

@@ -1,6 +1,6 @@
 //! Tests of files and pipes: complete or absent, not overwritten without --force, equal for any number of threads.
 
-use crate::{S, refused_in, vibro};
+use crate::{S, printed, printed_in, refused_in, vibro};
 use std::fs;
 use std::io::Read;
 use std::process::{Command, Stdio};
@@ -33,8 +33,7 @@ fn tables_do_not_depend_on_threads() {
         assert_eq!(tables[0].lines().next(), Some(header));
         assert!(tables[0].lines().count() > rows, "{name}");
         assert!(tables.iter().all(|table| *table == tables[0]), "{name}");
-        let stdout = vibro(&format!("{line} --csv -")).output().unwrap().stdout;
-        assert_eq!(stdout, tables[0].as_bytes());
+        assert_eq!(printed(&format!("{line} --csv -")), tables[0]);
     }
     let names: Vec<_> = folder.path().read_dir().unwrap().collect();
     assert_eq!(names.len(), 12, "no temporary file is left: {names:?}");
@@ -57,14 +56,12 @@ fn existing_files_stay_unless_forced() {
         // a question without an answer leaves the file unchanged
         format!("branch {S} --label 7/5 --vary gap --to 1 --orbit 99 --csv keep.csv --force"),
     ] {
-        let output = vibro(&line).current_dir(&folder).output().unwrap();
-        assert_eq!(output.status.code(), Some(2));
-        let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
+        let complaint = refused_in(&folder, &line);
         assert!(complaint.contains("`keep.csv` exists already") || line.contains("--force"), "{complaint}");
         assert_eq!(fs::read_to_string(&file).unwrap(), "precious");
     }
     let forced = format!("simulate {S} --csv keep.csv --force");
-    assert!(vibro(&forced).current_dir(&folder).output().unwrap().status.success());
+    printed_in(&folder, &forced);
     assert!(fs::read_to_string(&file).unwrap().starts_with("time,x,v\n0,0,0\n"));
 }
 
@@ -84,8 +81,7 @@ fn places_that_cannot_hold_a_file() {
         assert!(complaint.contains(sentence), "{complaint}");
     }
     let twice = format!("basin {S} {GRID} --csv same.svg --plot same.svg");
-    let output = vibro(&twice).current_dir(&folder).output().unwrap();
-    assert_eq!(output.status.code(), Some(2));
+    refused_in(&folder, &twice);
     assert_eq!(folder.path().read_dir().unwrap().count(), 2);
 }
 
@@ -100,8 +96,7 @@ fn a_directory_without_permission() {
     // root can write everywhere, so the test does not apply
     if fs::write(locked.join("probe"), "").is_err() {
         let line = format!("simulate {S} --csv locked/a.csv");
-        let output = vibro(&line).current_dir(&folder).output().unwrap();
-        assert_eq!(output.status.code(), Some(2));
+        refused_in(&folder, &line);
     }
 }
 
@@ -134,8 +129,7 @@ fn pictures() {
         ("paper", format!("{CURVE} --plot paper.pdf --size 85x60mm")),
         ("nothing", "diagram --beta 2 --restitution 0.5 --vary gap --over 5:6:3 --plot nothing.svg".into()),
     ] {
-        let output = vibro(&line).current_dir(&folder).output().unwrap();
-        assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+        printed_in(&folder, &line);
         let svg = folder.path().join(format!("{name}.svg"));
         if svg.exists() {
             assert!(fs::read_to_string(svg).unwrap().starts_with("<svg"));
@@ -152,11 +146,11 @@ fn pictures() {
 #[test]
 fn manual_pages() {
     let folder = tempfile::tempdir().unwrap();
-    assert!(vibro("man .").current_dir(&folder).output().unwrap().status.success());
+    printed_in(&folder, "man .");
     for page in ["vibro.1", "vibro-settle.1", "vibro-map.1"] {
         assert!(fs::read_to_string(folder.path().join(page)).unwrap().contains("vibro"));
     }
-    assert_eq!(vibro("man .").current_dir(&folder).output().unwrap().status.code(), Some(2));
+    refused_in(&folder, "man .");
 }
 
 #[test]
@@ -242,9 +236,7 @@ fn a_table_on_stdout_is_alone() {
         "run plan.json --store run.zarr".into(),
         "export basin.zarr".into(),
     ] {
-        let output = vibro(&line).args(["--csv", "-"]).current_dir(&folder).output().unwrap();
-        assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-        let text = String::from_utf8(output.stdout).unwrap();
+        let text = printed_in(&folder, &format!("{line} --csv -"));
         let columns = |line: &str| line.split(',').count();
         let width = columns(text.lines().next().unwrap());
         assert!(width > 1 && text.lines().count() > 1, "{line}: {text}");

@@ -1,7 +1,7 @@
 //! Studies of machines from outside: the same results with a store and without, in parts, refined, damaged and mended.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use crate::{files, json, printed_in, refused, refused_in, vibro};
+use crate::{files, json, printed_in, ran, refused, refused_in};
 use serde_json::Value;
 use std::fs;
 
@@ -81,7 +81,7 @@ fn parts_and_damage() {
     // the first chunk of the labels
     let chunk = whole.keys().find(|name| name.starts_with("label/c/")).unwrap();
     fs::write(here.join("parts.zarr").join(chunk), b"damaged").unwrap();
-    assert_eq!(vibro("verify parts.zarr").current_dir(here).output().unwrap().status.code(), Some(1));
+    assert_eq!(ran(here, "verify parts.zarr").0, Some(1));
     printed_in(here, "resume parts.zarr");
     assert_eq!(files(&here.join("parts.zarr")), whole);
     let script = printed_in(here, "slurm study.json --jobs 4");

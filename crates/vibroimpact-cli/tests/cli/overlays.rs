@@ -1,7 +1,7 @@
 //! Tests of `--layers`, `--mark` and `--line`: the figure that the page of the explorer exports, with what lies over the map,
 //! is that of the command which the page shows.
 
-use crate::{printed, refused_in, vibro};
+use crate::{printed, printed_in, refused_in};
 use axum::body::{Body, to_bytes};
 use axum::http::{Request, header};
 use serde_json::Value;
@@ -33,8 +33,7 @@ fn ask(path: &str, plan: &str) -> Vec<u8> {
 }
 
 fn drawn(folder: &Path, line: &str) -> String {
-    let output = vibro(line).arg("--force").current_dir(folder).output().expect("vibro runs");
-    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+    printed_in(folder, &format!("{line} --force"));
     let file = line.split_whitespace().find(|word| word.ends_with(".svg")).expect("a figure");
     std::fs::read_to_string(folder.join(file)).expect("the figure")
 }

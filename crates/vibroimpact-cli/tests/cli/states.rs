@@ -1,6 +1,6 @@
 //! Whole states of machines: motions go on from what a command printed; and what is refused of machines.
 
-use crate::{json, printed, refused, vibro};
+use crate::{json, printed, ran, refused};
 use serde_json::Value;
 use std::fs;
 
@@ -99,9 +99,8 @@ fn a13_a_search_limit_is_an_end() {
         name = \"stop\"\ndirection = [1, 1]\ngap = 0.5\nrestitution = 0.5\n";
     fs::write(&file, machine).unwrap();
     let line = |verb: &str| format!("{verb} --machine {} --q 0.1,0 --qdot 0,0.45", file.display());
-    let output = vibro(&line("simulate")).output().unwrap();
-    let (text, complaint) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
-    assert_eq!(output.status.code(), Some(1), "{text} {complaint}");
+    let (code, text, complaint) = ran(".", &line("simulate"));
+    assert_eq!(code, Some(1), "{text} {complaint}");
     assert!(
         text.contains("ran out of steps") && complaint.contains("hint: numbers that lie many orders"),
         "{complaint}"

@@ -209,8 +209,8 @@ fn a_budget_stops_a_run_and_the_status_says_how_far_it_is() {
     assert_eq!(first["tile"].to_string(), r#"{"gap":4,"inverse_beta":4}"#);
     assert_eq!(first["cost"]["tiles"], 1);
     let watch = begin(folder.path(), "status s.zarr --watch --every 0.01s --json");
-    let output = vibro("resume s.zarr --budget 0.000001s --json").current_dir(folder.path()).output().unwrap();
-    assert_eq!((output.status.code(), output.stdout.len()), (Some(130), 0));
+    let (code, printed, _) = ran(folder.path(), "resume s.zarr --budget 0.000001s --json");
+    assert_eq!((code, printed.as_str()), (Some(130), ""));
     let map = "map --inverse-beta 0.6:1.9:16 --gap 0:3:16 --restitution 0.5 --starts 4 --impacts 2000 --tile 4 --store s.zarr";
     assert_eq!(said(folder.path(), &format!("{map} --budget 0.000001s --plot a.png")).0, Some(130));
     assert!(!folder.path().join("a.png").exists());
@@ -259,9 +259,8 @@ fn an_estimate_before_anything_starts() {
     let folder = tempfile::tempdir().unwrap();
     plan(folder.path(), &PLAN.replace(":28\"", ":16\""));
     let estimate = |flags: &str| {
-        let output = vibro(&format!("estimate study.toml --json {flags}")).current_dir(folder.path()).output().unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap()
+        let printed = printed_in(folder.path(), &format!("estimate study.toml --json {flags}"));
+        serde_json::from_str::<serde_json::Value>(&printed).unwrap()
     };
     let found = estimate("--threads 2");
     assert!(fs::read_dir(folder.path()).unwrap().count() == 1, "nothing is written");

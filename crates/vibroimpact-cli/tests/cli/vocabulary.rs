@@ -1,7 +1,7 @@
 //! One vocabulary for every system: the answers to a command have the same fields for an oscillator, for a body in SI units and for
 //! a machine of two coordinates, and are as `vibro schema COMMAND` says.
 
-use crate::{json, refused, vibro};
+use crate::{json, printed, refused};
 use serde_json::Value;
 use std::collections::BTreeSet;
 
@@ -141,8 +141,7 @@ fn fields(value: &Value, path: &str, found: &mut BTreeSet<String>) {
 fn every_answer_is_as_its_schema_says_and_the_same_for_every_system() {
     for (command, flags) in COMMANDS {
         let verb = command.split(' ').next().unwrap();
-        let printed = vibro(&format!("schema {verb}")).output().unwrap();
-        let schema: Value = serde_json::from_slice(&printed.stdout).expect("a schema");
+        let schema: Value = serde_json::from_str(&printed(&format!("schema {verb}"))).expect("a schema");
         let answers: Vec<BTreeSet<String>> = [OSCILLATOR, BODY, MACHINE]
             .into_iter()
             .zip(flags)
@@ -196,7 +195,7 @@ fn further_answers_are_as_their_schemas_say() {
         "settle --machine stick-slip",
     ] {
         let verb = line.split(' ').next().unwrap();
-        let schema: Value = serde_json::from_slice(&vibro(&format!("schema {verb}")).output().unwrap().stdout).unwrap();
+        let schema: Value = serde_json::from_str(&printed(&format!("schema {verb}"))).unwrap();
         check(&json(line), &schema, &schema, line);
     }
     let map = json("map --restitution 0.5 --beta 0.8:0.9:2 --gap 0.5:1:2 --starts 3");
@@ -208,10 +207,7 @@ fn further_answers_are_as_their_schemas_say() {
 /// The columns of the tables of both kinds of system have the names of the JSON.
 #[test]
 fn tables_have_the_names_of_the_json() {
-    let head = |line: &str| {
-        let output = vibro(&format!("{line} --csv -")).output().unwrap();
-        String::from_utf8(output.stdout).unwrap().lines().next().unwrap_or_default().to_owned()
-    };
+    let head = |line: &str| printed(&format!("{line} --csv -")).lines().next().unwrap_or_default().to_owned();
     let branch = "branch --label 1/1 --vary";
     assert_eq!(
         head(&format!("{branch} gap --to 0.8 {OSCILLATOR}")),
