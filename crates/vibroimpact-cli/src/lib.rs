@@ -29,6 +29,12 @@ use clap::{ArgMatches, CommandFactory, FromArgMatches};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
+/// The parser of command lines, with all commands and their options.
+#[must_use]
+pub fn parser() -> clap::Command {
+    commands::CommandLine::command()
+}
+
 /// Runs a command line, whose first word is the name of the program, and returns the exit code. `program` is the file to
 /// name in scripts that run the command again; that of this process when absent.
 ///
@@ -37,10 +43,17 @@ use std::path::PathBuf;
 pub fn run(words: &[OsString], program: Option<PathBuf>) -> u8 {
     exit::no_backtraces();
     program::remember(program);
-    let command = commands::CommandLine::command();
     // the help is rearranged only where it is asked for, because this takes longer than a short question
     let helps = words.iter().any(|word| word == "-h" || word == "--help");
-    let parsed = if helps { help::shown(command) } else { command }.try_get_matches_from(words);
+    // what the parser of the named command alone refuses is explained by the parser of all
+    let named = words.get(1).filter(|_| !helps).and_then(|word| commands::alone(word.to_str()?));
+    let parsed = named.and_then(|command| command.try_get_matches_from(words).ok()).map_or_else(
+        || {
+            let all = parser();
+            if helps { help::shown(all) } else { all }.try_get_matches_from(words)
+        },
+        Ok,
+    );
     let read = |found: ArgMatches| Ok((commands::CommandLine::from_arg_matches(&found)?, found));
     let (line, found) = match parsed.and_then(read) {
         Ok(read) => read,

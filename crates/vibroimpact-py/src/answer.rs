@@ -14,7 +14,7 @@ use std::sync::Arc;
 use vibroimpact::chaos::Section;
 use vibroimpact_report::json::event::{self, EventObject, side};
 use vibroimpact_report::json::motion::horizon;
-use vibroimpact_report::{Asked, Shown, Units, figure};
+use vibroimpact_report::{AnswerError, Asked, ContactQuestion, Shown, Units, figure};
 use vibroimpact_study::{
     Dynamics, MarginsPlan, Name, Parameter, Plan, PlanError, Quantity, ResponseCurves, ResponseRow, Results,
     SectionPoints, Simulated, SystemPlan, Task,
@@ -236,6 +236,15 @@ fn only(answer: &mut vibroimpact_report::Answer, number: usize) {
 #[pyfunction]
 pub(crate) fn title_of(osc: OscillatorFile) -> String {
     figure::title(&Asked { system: osc.plan, units: Units::default() })
+}
+
+/// The contact that a JSON object asks for: the object of the command, and its figure as JSON.
+#[pyfunction]
+pub(crate) fn contact(question: &str) -> Result<(String, String), Trouble> {
+    let question: ContactQuestion =
+        serde_json::from_str(question).map_err(|error| Trouble::question(error.to_string()))?;
+    let answer = question.answer().map_err(AnswerError::from)?;
+    Ok((text(&answer)?, text(&answer.figure())?))
 }
 
 /// The figure of shares of starts by label, as JSON.

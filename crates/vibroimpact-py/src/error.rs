@@ -127,10 +127,19 @@ impl From<Trouble> for PyErr {
 }
 
 /// Hints of the command, and what they are in Python.
-const HINTS: [(&str, &str); 3] = [
+const HINTS: [(&str, &str); 6] = [
     ("`vibro attractors --machine` lists the stable ones", "machine.attractors() finds the stable ones"),
     ("a map over one parameter with --fields has one", "a map over one parameter with fields=[...] has one"),
     ("`vibro attractors` answers for one point", "`attractors` answers for one point"),
+    (
+        "--mass-kg with --stiffness-n-per-m, --frequency-hz or --contact-time-s",
+        "mass with stiffness, frequency or contact_time",
+    ),
+    ("--restitution, --damping-ns-per-m or --damping-ratio", "restitution, damping or damping_ratio"),
+    (
+        "--contact-time-s and --damping-ns-per-m do not determine a stiffness\nhint: --restitution or --damping-ratio",
+        "contact_time and damping do not determine a stiffness\nhint: restitution or damping_ratio",
+    ),
 ];
 
 /// A message in the words of Python: hints name arguments and functions, not flags.
@@ -187,7 +196,7 @@ impl From<AnswerError> for Trouble {
         match error {
             AnswerError::Plan(error) => error.into(),
             AnswerError::Stopped(stopped) => stopped.into(),
-            AnswerError::Report(error) => Self::Question(error.to_string()),
+            AnswerError::Report(error) => Self::Question(in_python(&error.to_string())),
         }
     }
 }

@@ -28,7 +28,7 @@ mod store;
 #[pyo3::pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::answer::{Answer, answer, plan_of, shares_figure, title_of, varied_parameters};
+    use crate::answer::{Answer, answer, contact, plan_of, shares_figure, title_of, varied_parameters};
     #[pymodule_export]
     use crate::command::vibro;
     #[pymodule_export]

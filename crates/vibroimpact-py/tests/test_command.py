@@ -82,3 +82,14 @@ def test_diagram(vibro: Callable[..., Any], show: str) -> None:
         for gap, a, b in zip(one["gap"].values, *(one[name].values for name in names)):
             found += [(sweep, float(gap), float(x), float(y)) for x, y in zip(a, b) if np.isfinite(x)]
     assert found == told_points and len(found) > 100
+
+
+def test_a_contact_is_that_of_the_command(vibro: Callable[..., Any]) -> None:
+    told = json.loads(vibro("contact", "--restitution", 0.6, "--mass-kg", 0.8, "--stiffness-n-per-m", 2e5, "--json").stdout)
+    found = vi.contact(restitution=0.6, mass=0.8, stiffness=2e5)
+    assert found.to_dict() == told and found == vi.contact(restitution=0.6, mass=0.8, stiffness=2e5)
+    assert len(found.to_dataframe()) == 2 and found.to_xarray()["contact_time"].values.tolist() == found.contact_time.tolist()
+    assert found.plot().get_ylabel() == "contact force (N)" and np.isnan(vi.contact(damping_ratio=1.2, mass=1, stiffness=10).contact_time[1])
+    for given, sentence in (({"mass": 1, "stiffness": 5}, "hint: restitution, damping or damping_ratio"), ({"opening": "late"}, "unknown variant")):
+        with pytest.raises(vi.QuestionError, match=sentence):
+            vi.contact(**given)

@@ -1,12 +1,8 @@
 """Machines of several coordinates: as files, from arrays, their motions and waveforms."""
 
-import json
 import math
 import pickle
-import subprocess
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -107,18 +103,6 @@ def test_refusals() -> None:
             make()
 
 
-def test_a_contact_in_closed_form() -> None:
-    """SDND101: 100 kg on 10 kN/m strike a spring of 1 MN/m at the place of rest with 1 m/s."""
-    motion = vi.Machine.named("sdnd101").simulate(impacts=2)
-    rate = math.sqrt(1.01e4)
-    assert motion.kind.tolist() == ["close", "open"] and motion.stop.tolist() == ["stop", "stop"]
-    assert motion.time[1] == pytest.approx(math.pi / rate, rel=1e-14) and motion.speed[0] == 1
-    wave = motion.waveform(1e-4, events=False)
-    pressed = wave.contact[:, 0]
-    assert np.allclose(wave.force[pressed, 0], 1e6 * np.sin(rate * wave.time[pressed]) / rate, rtol=0, atol=1e-8)
-    assert np.allclose(wave.q[:, 0], -wave.gap[:, 0], rtol=0, atol=1e-17) and len(wave) == 313
-
-
 def test_a_waveform_is_even_and_has_the_events() -> None:
     motion = two().simulate(periods=10)
     assert len(motion) > 10 and {"impact", "slip"} <= set(motion.kind.tolist())
@@ -133,26 +117,6 @@ def test_a_waveform_is_even_and_has_the_events() -> None:
     sides = np.flatnonzero(full.time == motion.time[struck])
     before, after = full.qdot[sides[0], 0], full.qdot[sides[-1], 0]
     assert before == pytest.approx(motion.speed[struck], rel=1e-12) and after == pytest.approx(-0.8 * before, rel=1e-12)
-
-
-def test_the_command_says_the_same(vibro: Callable[..., subprocess.CompletedProcess[str]], tmp_path: Path) -> None:
-    machine = vi.Machine.named("two-mass-hammer").set(b=0.3)
-    motion = machine.simulate(q=[0.1, 0], phase=1, periods=4)
-    told = json.loads(vibro("simulate", "--machine", "two-mass-hammer", "--set", "b=0.3", "--q", "0.1,0", "--phase", "1",
-                            "--periods", "4", "--json").stdout)
-    ours = motion.to_dict()
-
-    # the command tells the state after each event too; here `state` gives it
-    def events(answer: dict[str, Any]) -> list[dict[str, Any]]:
-        return [{name: value for name, value in event.items() if name not in ("contacts", "exact")}
-                for event in answer["events"]]
-
-    assert events(told) == events(ours) and told["end"] == ours["end"]
-    # the plans of both run again
-    for plan in (motion.plan, json.dumps(told["plan"])):
-        file = tmp_path / "plan.json"
-        file.write_text(plan)
-        assert events(json.loads(vibro("run", str(file), "--json").stdout)) == events(ours)
 
 
 @pytest.mark.parametrize(("name", "panels"), [("two-mass-hammer", 1), ("soft-stop", 2), ("cantilever", 2), ("chain", 2)])

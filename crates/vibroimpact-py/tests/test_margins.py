@@ -2,7 +2,6 @@
 
 import pickle
 
-import numpy as np
 import pytest
 
 import vibroimpact as vi
@@ -19,20 +18,6 @@ def test_the_distance_is_that_of_the_branch() -> None:
     assert up.distance == up.at - 1.5 and up.relative == up.distance / 1.5
     assert found.parameters["damping"].down.event is None and found.parameters["damping"].down.limit == 0
     assert pickle.loads(pickle.dumps(found)).to_dict() == found.to_dict()
-
-
-def test_the_motion_is_found_at_random_points_of_the_box() -> None:
-    osc = vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5, damping=0.01)
-    found = vi.margins(osc, label="1/1")
-    assert found.box is not None and 0 < found.box.size <= found.box.largest and found.box.edge is not None
-    random = np.random.default_rng(1)
-    for _ in range(100):
-        values = {name: random.uniform(a, b) for name, (a, b) in found.box.ranges.items()}
-        orbits = vi.orbits(osc.replace(**values), "1/1")
-        assert any(orbit.admissible and orbit.stable for orbit in orbits), values
-    loss, values = found.box.edge
-    beside = vi.orbits(osc.replace(**values), "1/1")
-    assert loss == "unstable" and not any(orbit.admissible and orbit.stable for orbit in beside)
 
 
 def test_the_bars_end_at_the_events() -> None:

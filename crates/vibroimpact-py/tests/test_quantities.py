@@ -6,29 +6,6 @@ import pytest
 import vibroimpact as vi
 
 
-def test_the_work_of_the_force_is_lost() -> None:
-    osc = vi.Oscillator(inverse_beta=1.8, gap=0.25, restitution=0.5, damping=0.01)
-    of = vi.settle(osc).quantities
-    assert of is not None
-    lost = of["impact_loss_per_period"] + of["damping_loss_per_period"]
-    assert abs(of["work_per_period"] - lost) < 1e-13 and lost > 0.1
-    # the largest speed of arrival is that of the cycle
-    assert of["impact_speed_max"] == vi.settle(osc).cycle.speed.max()
-    assert vi.settle(osc).to_dict()["motion"]["quantities"]["impacts_per_period"] == of["impacts_per_period"]
-
-
-def test_against_a_waveform() -> None:
-    osc = vi.Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5)
-    motion = vi.settle(osc)
-    wave = motion.waveform(motion.system.period / 20000)
-    t, x, v = wave.time, wave.q[:, 0], wave.qdot[:, 0]
-    of = motion.quantities
-    assert of is not None
-    mean = np.trapezoid(x**2, t) / (t[-1] - t[0]) if hasattr(np, "trapezoid") else np.trapz(x**2, t) / (t[-1] - t[0])
-    assert abs(of["displacement_rms"] - np.sqrt(mean)) < 1e-6
-    assert abs(of["displacement_min"] - x.min()) < 1e-6 and of["displacement_max"] == pytest.approx(0.75)
-
-
 def test_fields_of_maps_and_basins() -> None:
     osc = vi.Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5)
     ds = vi.region_map(osc, {"gap": [0.5, 0.75]}, starts=8, fields=["impact_speed_max", "power"])
@@ -70,15 +47,6 @@ def test_measures_of_a_basin() -> None:
     assert of["merging"] is None
     with pytest.raises(vi.QuestionError, match="a basin over two axes"):
         ds.isel(v=0).vibro.measures()
-
-
-def test_three_basins_are_compared_by_merging() -> None:
-    stripes = np.arange(60 * 60) % 60 // 20
-    found = vi._core.basin_measures(stripes.astype(np.int64), 60)["merging"]
-    assert found == {"motions": 3, "radius": 20, "limit": 1, "common": 0.0, "wada": False}
-    turns = (np.add.outer(np.arange(60), np.arange(60)) % 3).reshape(-1)
-    found = vi._core.basin_measures(turns.astype(np.int64), 60)["merging"]
-    assert found["wada"] and found["radius"] == 1
 
 
 def test_a_response() -> None:

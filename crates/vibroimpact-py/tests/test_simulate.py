@@ -1,66 +1,11 @@
-"""Events compared with a numerical integrator."""
+"""Motions event by event, and their waveforms."""
 
 import math
 import pickle
 
 import numpy as np
-import pytest
-from scipy.integrate import solve_ivp
 
 import vibroimpact as vi
-
-
-def integrated(osc: vi.Oscillator, x: float, v: float, phase: float, impacts: int) -> list[tuple[float, float, int]]:
-    """Times, speeds and sides of impacts by an adaptive integrator with event location."""
-    beta, zeta = osc.beta, osc.damping
-    stops = [(osc.gap, 1, osc.restitution)]
-    if osc.second_gap is not None and osc.second_restitution is not None:
-        stops.append((-osc.second_gap, -1, osc.second_restitution))
-
-    def field(t: float, y: np.ndarray) -> list[float]:
-        return [y[1], math.sin(beta * t + phase) - y[0] - 2 * zeta * y[1]]
-
-    def reaches(at: float, sign: int):
-        def distance(_t: float, y: np.ndarray) -> float:
-            return sign * (y[0] - at)
-
-        distance.terminal, distance.direction = True, 1
-        return distance
-
-    found, t, y = [], 0.0, [x, v]
-    events = [reaches(at, sign) for at, sign, _ in stops]
-    while len(found) < impacts:
-        run = solve_ivp(field, (t, t + 100), y, "DOP853", events=events, rtol=1e-13, atol=1e-14, max_step=0.05)
-        which = next(k for k, times in enumerate(run.t_events) if len(times))
-        at, sign, restitution = stops[which]
-        t, speed = float(run.t_events[which][0]), sign * float(run.y_events[which][0][1])
-        found.append((t, speed, sign))
-        # slightly off the stop, so that the event is not detected again
-        y = [at - sign * 1e-15, -sign * restitution * speed]
-    return found
-
-
-@pytest.mark.parametrize(
-    ("osc", "start"),
-    [
-        (vi.Oscillator(beta=0.77, gap=0.75, restitution=0.5), (-2.0, 0.5, 0.3)),
-        (vi.Oscillator(beta=1.4, gap=0.2, restitution=0.9, damping=0.05), (0.0, 0.0, 2.0)),
-        (vi.Oscillator(beta=1.0, gap=0.5, restitution=0.8, second_gap=0.7, second_restitution=0.6), (0.1, 0.0, 1.0)),
-    ],
-)
-def test_impacts_as_an_integrator_finds_them(osc: vi.Oscillator, start: tuple[float, float, float]) -> None:
-    x, v, phase = start
-    sim = vi.simulate(osc, x=x, v=v, phase=phase, impacts=8)
-    expected = integrated(osc, x, v, phase, 8)
-    assert sim.kind.tolist() == ["impact"] * 8 and sim.end == "impact_limit"
-    np.testing.assert_allclose(sim.time, [t for t, _, _ in expected], atol=1e-8)
-    np.testing.assert_allclose(sim.speed, [u for _, u, _ in expected], atol=1e-8)
-    wrapped = (osc.beta * sim.time + phase) % (2 * math.pi)
-    np.testing.assert_allclose(sim.phase, wrapped, atol=1e-12)
-    assert sim.stop.tolist() == ["upper" if side > 0 else "lower" for _, _, side in expected]
-    side = np.where(sim.stop == "upper", 1, -1)
-    restitution = np.where(side > 0, osc.restitution, osc.second_restitution or 0.0)
-    np.testing.assert_array_equal(sim.qdot[:, 0], -side * restitution * sim.speed)
 
 
 def test_waveform_obeys_the_equation_and_the_stop(n: vi.Oscillator) -> None:

@@ -1,9 +1,10 @@
 //! The contact of a mass with a spring and a damper: its restitution, times, depths and forces, as JSON, table and figure.
 
 use crate::number::{Number, short};
-use crate::{PROGRAM, Table};
+use crate::{PROGRAM, ReportError, Table};
+use core::f64::consts::TAU;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use vibroimpact::machine::{Opening, SpringDamper};
 use vibroimpact_plot::{Dash, Figure, FigureAxis, Legend, Line, Panel, SERIES};
 
@@ -11,6 +12,101 @@ use vibroimpact_plot::{Dash, Figure, FigureAxis, Legend, Line, Panel, SERIES};
 const POINTS: u32 = 400;
 /// A contact that never opens is drawn for so many radians of the mass on the spring.
 const DRAWN: f64 = 20.0;
+
+/// The question of a contact, in SI units: two of mass, stiffness and frequency, the frequency alone, or the mass and the contact
+/// time; and what the contact loses.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs, reason = "the names are those of `ContactObject`")]
+pub struct ContactQuestion {
+    pub mass: Option<f64>,
+    pub stiffness: Option<f64>,
+    pub frequency: Option<f64>,
+    pub contact_time: Option<f64>,
+    pub restitution: Option<f64>,
+    pub damping: Option<f64>,
+    pub damping_ratio: Option<f64>,
+    pub speed: f64,
+    /// When it opens; both ways when absent.
+    pub opening: Option<Opens>,
+}
+
+/// When a contact opens.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Opens {
+    /// When its force falls to zero.
+    Force,
+    /// Where its spring is relaxed again.
+    Position,
+}
+
+impl ContactQuestion {
+    /// The answer.
+    ///
+    /// # Errors
+    /// [`ReportError::Contact`] for numbers out of their ranges, or that do not determine a contact.
+    pub fn answer(&self) -> Result<ContactAnswer, ReportError> {
+        let speed = self.speed;
+        if !(1e-100..=1e100).contains(&speed) {
+            return Err(ReportError::Contact(format!("speed = {speed} lies outside 1e-100 to 1e100")));
+        }
+        let openings = match self.opening {
+            Some(Opens::Force) => vec![Opening::Force],
+            Some(Opens::Position) => vec![Opening::Position],
+            None => vec![Opening::Force, Opening::Position],
+        };
+        let contacts = openings.into_iter().map(|opening| self.contact(opening)).collect::<Result<Vec<_>, _>>()?;
+        Ok(ContactAnswer::new(&contacts, speed))
+    }
+
+    /// The contact that opens so.
+    fn contact(&self, opening: Opening) -> Result<SpringDamper, ReportError> {
+        let refused = |said: &str| ReportError::Contact(said.to_owned());
+        let of = |mass: f64, stiffness: f64| {
+            let contact = match (self.restitution, self.damping, self.damping_ratio) {
+                (Some(restitution), ..) => SpringDamper::with_restitution(mass, stiffness, restitution, opening),
+                (_, Some(damping), _) => SpringDamper::new(mass, stiffness, damping, opening),
+                (.., Some(ratio)) => SpringDamper::with_damping_ratio(mass, stiffness, ratio, opening),
+                _ => {
+                    return Err(refused(
+                        "what does the contact lose?\nhint: --restitution, --damping-ns-per-m or --damping-ratio",
+                    ));
+                }
+            };
+            contact.map_err(|error| refused(&error.to_string()))
+        };
+        let square = self.frequency.map(|hertz| (TAU * hertz) * (TAU * hertz));
+        match (self.mass, self.stiffness, square, self.contact_time) {
+            (Some(_), Some(_), Some(_), _) => {
+                Err(refused("mass, stiffness and frequency: two of them give the third\nhint: leave one away"))
+            }
+            (Some(mass), Some(stiffness), None, _) => of(mass, stiffness),
+            (Some(mass), None, Some(square), _) => of(mass, mass * square),
+            (None, Some(stiffness), Some(square), _) => of(stiffness / square, stiffness),
+            // of each kilogram
+            (None, None, Some(square), _) => of(1.0, square),
+            (Some(_), None, None, Some(_)) if self.damping.is_some() => Err(refused(
+                "--contact-time-s and --damping-ns-per-m do not determine a stiffness\nhint: --restitution or --damping-ratio",
+            )),
+            (Some(mass), None, None, Some(time)) => {
+                // with a given ratio the time falls as the root of the stiffness
+                let unit = of(mass, mass)?;
+                let turned = unit.contact_time() / time;
+                if !(turned > 0.0 && turned.is_finite()) {
+                    return Err(ReportError::Contact(format!(
+                        "no stiffness gives the contact time {time}: a contact with damping ratio {} does not open by position",
+                        short(unit.damping_ratio())
+                    )));
+                }
+                of(mass, mass * turned * turned)
+            }
+            _ => Err(refused(
+                "the spring is not determined\nhint: --mass-kg with --stiffness-n-per-m, --frequency-hz or --contact-time-s",
+            )),
+        }
+    }
+}
 
 /// The answer to `vibro contact`.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
@@ -80,9 +176,8 @@ const SI: ContactUnits = ContactUnits {
 const HEADER: &str = "opening,restitution,damping_ratio,mass_kg,stiffness_n_per_m,damping_ns_per_m,frequency_hz,contact_time_s,depth_max_m,force_max_n,residual_depth_m";
 
 impl ContactAnswer {
-    /// The answer for contacts in SI units that are approached at a speed.
-    #[must_use]
-    pub fn new(contacts: &[SpringDamper], speed: f64) -> Self {
+    /// The answer for contacts that are approached at a speed.
+    fn new(contacts: &[SpringDamper], speed: f64) -> Self {
         let object = |contact: &SpringDamper| ContactObject {
             opening: match contact.opening() {
                 Opening::Force => "force",
@@ -93,7 +188,7 @@ impl ContactAnswer {
             mass: contact.mass(),
             stiffness: contact.stiffness(),
             damping: contact.damping(),
-            frequency: contact.frequency() / core::f64::consts::TAU,
+            frequency: contact.frequency() / TAU,
             contact_time: Some(contact.contact_time()).filter(|time| time.is_finite()),
             depth_max: contact.deepest(speed),
             force_max: contact.peak_force(speed),

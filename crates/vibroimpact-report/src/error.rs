@@ -11,6 +11,9 @@ pub enum ReportError {
     /// The values of an axis neither rise nor fall.
     #[error("a figure needs values in rising or falling order\nhint: a table takes any order")]
     Order,
+    /// Numbers that are those of no contact.
+    #[error("{0}")]
+    Contact(String),
     /// The number of axes is neither one nor two.
     #[error("a figure needs one or two axes, not {0}\nhint: a table takes any number, and xarray opens a store")]
     Axes(usize),

@@ -34,7 +34,7 @@ mod varied;
 
 pub use answer::{Answer, AnswerOf, Shown, Told, answer};
 pub use branch_quantity::BranchQuantity;
-pub use contact::{ContactAnswer, ContactObject};
+pub use contact::{ContactAnswer, ContactObject, ContactQuestion, Opens};
 pub use error::{AnswerError, ReportError};
 pub use table::Table;
 pub use units::{Asked, Units};

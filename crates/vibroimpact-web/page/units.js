@@ -91,9 +91,6 @@ export function quantityOf(state) {
   return { name, description, unit, per, factor: per * (found?.quantities[name] ?? 1), of: state.of };
 }
 
-/** The units of a body, for plans in them; null without a body or before they are there. */
-export const machineUnits = (state) => unitsOf(state);
-
 /** The chosen point as a body: frequency of the force, gaps, natural frequency. */
 export function machineText(state) {
   const found = unitsOf(state);

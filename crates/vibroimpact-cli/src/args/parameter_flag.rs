@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, Command};
 use std::ffi::OsStr;
+use std::sync::LazyLock;
 use vibroimpact_study::{BodyNumber, Parameter};
 
 /// A parameter that varies, as it was named: a parameter of the oscillator or a number of a body.
@@ -30,7 +31,7 @@ impl ParameterFlag {
     }
 
     /// Its name on the command line, without dashes before it.
-    pub(crate) const fn flag(self) -> &'static str {
+    pub(crate) fn flag(self) -> &'static str {
         flag(self.parameter)
     }
 
@@ -120,39 +121,11 @@ impl TypedValueParser for VariedParser {
 }
 
 /// The name of the flag of a parameter, without the dashes.
-pub(crate) const fn flag(parameter: Parameter) -> &'static str {
-    match parameter {
-        Parameter::Beta => "beta",
-        Parameter::InverseBeta => "inverse-beta",
-        Parameter::Gap => "gap",
-        Parameter::Restitution => "restitution",
-        Parameter::Damping => "damping",
-        Parameter::SecondGap => "second-gap",
-        Parameter::SecondRestitution => "second-restitution",
-        Parameter::Body(parameter) => body_flag(parameter),
-    }
-}
-
-const fn body_flag(parameter: BodyNumber) -> &'static str {
-    match parameter {
-        BodyNumber::Mass => "mass-kg",
-        BodyNumber::Stiffness => "stiffness-n-per-m",
-        BodyNumber::DampingCoefficient => "damping-ns-per-m",
-        BodyNumber::DampingRatio => "damping-ratio",
-        BodyNumber::Force => "force-n",
-        BodyNumber::Frequency => "frequency-hz",
-        BodyNumber::Gap => "gap-m",
-        BodyNumber::SecondGap => "second-gap-m",
-        BodyNumber::Gaps => "gaps-m",
-        BodyNumber::Restitutions => "restitutions",
-        BodyNumber::BaseDisplacement => "base-displacement-m",
-        BodyNumber::BaseVelocity => "base-velocity-m-per-s",
-        BodyNumber::BaseAcceleration => "base-acceleration-m-per-s2",
-        BodyNumber::StopDisplacement => "stop-displacement-m",
-        BodyNumber::Unbalance => "unbalance-kg-m",
-        BodyNumber::ConstantForce => "constant-force-n",
-        BodyNumber::Gravity => "gravity-m-per-s2",
-    }
+pub(crate) fn flag(parameter: Parameter) -> &'static str {
+    static FLAGS: LazyLock<Vec<(Parameter, String)>> = LazyLock::new(|| {
+        ParameterFlag::all().map(|of| (of.parameter, of.parameter.name().replace('_', "-"))).collect()
+    });
+    FLAGS.iter().find(|(known, _)| *known == parameter).map_or("", |(_, flag)| flag)
 }
 
 const fn meaning(parameter: Parameter) -> &'static str {
@@ -165,17 +138,5 @@ const fn meaning(parameter: Parameter) -> &'static str {
         Parameter::SecondGap => "Distance of the second stop",
         Parameter::SecondRestitution => "Restitution of the second stop",
         Parameter::Body(parameter) => parameter.description(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn flags_of_a_body_are_its_names_with_hyphens() {
-        for parameter in BodyNumber::ALL {
-            assert_eq!(body_flag(parameter), parameter.name().replace('_', "-"));
-        }
     }
 }

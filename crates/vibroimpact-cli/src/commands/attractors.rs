@@ -1,12 +1,10 @@
 //! `vibro attractors`: the attractors of a system, and the share of starts that lead to each.
 
 use crate::args::{MachineArgs, OutputArgs, StoreArgs, SystemArgs, whole};
-use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use vibroimpact_report::Shown;
 use vibroimpact_study::Task;
 
 /// The steady motions that many scattered starts lead to, and their shares
@@ -52,7 +50,5 @@ pub(crate) struct Attractors {
 pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
     let system = args.machine.or_oscillator(None, || args.system.asked())?;
     let task = Task::Attractors { starts: args.starts, seed: args.seed, impacts: args.impacts };
-    let question = system.stored(task, Some(&args.store))?;
-    let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&question, (outputs, Shown::default()), Some(&args.store), session)
+    respond::ask(&system.stored(task, Some(&args.store))?, &args.output, Some(&args.store), session)
 }

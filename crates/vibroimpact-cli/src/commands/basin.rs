@@ -4,7 +4,6 @@ use crate::args::{
     ColourArgs, FieldsArgs, MachineArgs, MachineAxesArgs, OutputArgs, StartOfMachineArgs, StoreArgs, SystemArgs,
     number, whole,
 };
-use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
@@ -109,7 +108,6 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
         transient: false,
     };
     let question = system.stored(task, Some(&args.store))?;
-    let outputs = Outputs::reserve(args.output.files(), session)?;
-    let shown = Shown { colour: args.colour.coloured(outputs.drawn())?, ..Shown::default() };
-    respond::run(&question, (outputs, shown), Some(&args.store), session)
+    let shown = Shown { colour: args.colour.coloured(args.output.plot.is_some())?, ..Shown::default() };
+    respond::run(&question, (&args.output, shown), Some(&args.store), session)
 }

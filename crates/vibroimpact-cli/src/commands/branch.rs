@@ -3,7 +3,6 @@
 use crate::args::{
     BranchEnds, MachineArgs, OutputArgs, StartOfMachineArgs, SystemArgs, Value, Varied, VariedNamed, varied, whole,
 };
-use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
@@ -119,6 +118,5 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
         points: args.points,
     };
     let question = system.question(task)?;
-    let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&question, (outputs, shown), None, session)
+    respond::run(&question, (&args.output, shown), None, session)
 }

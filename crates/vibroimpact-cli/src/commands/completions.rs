@@ -1,8 +1,9 @@
 //! `vibro completions SHELL`.
 
+use crate::commands::CommandLine;
 use crate::failure::Failure;
 use crate::session::Session;
-use clap::{Args, Command};
+use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
 /// Print a completion script for your shell
@@ -13,7 +14,8 @@ pub(crate) struct Completions {
     shell: Shell,
 }
 
-pub(super) fn run(args: Completions, mut command: Command, session: &Session) -> Result<(), Failure> {
+pub(super) fn run(args: &Completions, session: &Session) -> Result<(), Failure> {
+    let mut command = CommandLine::command();
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut command, "vibro", &mut script);
     session.to_stdout(|out| out.write_all(&script))

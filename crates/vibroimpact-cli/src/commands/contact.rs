@@ -6,10 +6,8 @@ use crate::failure::Failure;
 use crate::report::words::table;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
-use core::f64::consts::TAU;
-use vibroimpact::machine::{MachineError, Opening, SpringDamper};
 use vibroimpact_report::number::short;
-use vibroimpact_report::{ContactAnswer, ContactObject};
+use vibroimpact_report::{ContactAnswer, ContactObject, ContactQuestion, Opens};
 
 /// Convert between restitution, stiffness and damping of a contact
 ///
@@ -82,19 +80,20 @@ fn in_unit(kind: UnitKind) -> impl Fn(&str) -> Result<f64, String> + Clone + Sen
 }
 
 pub(super) fn run(args: &Contact, session: &Session) -> Result<(), Failure> {
-    let speed = args.speed_m_per_s;
-    if !(1e-100..=1e100).contains(&speed) {
-        return Err(Failure::bad(format!("speed = {speed} lies outside 1e-100 to 1e100")));
-    }
-    let openings = match args.opening {
-        Some(When::Force) => vec![Opening::Force],
-        Some(When::Position) => vec![Opening::Position],
-        None => vec![Opening::Force, Opening::Position],
+    let question = ContactQuestion {
+        mass: args.mass_kg,
+        stiffness: args.stiffness_n_per_m,
+        frequency: args.frequency_hz,
+        contact_time: args.contact_time_s,
+        restitution: args.restitution,
+        damping: args.damping_ns_per_m,
+        damping_ratio: args.damping_ratio,
+        speed: args.speed_m_per_s,
+        opening: args.opening.map(|when| if matches!(when, When::Force) { Opens::Force } else { Opens::Position }),
     };
-    let contacts = openings.into_iter().map(|opening| args.contact(opening)).collect::<Result<Vec<_>, _>>()?;
+    let answer = question.answer()?;
     let outputs = Outputs::reserve(args.output.files(), session)?;
     let (json, silent) = (outputs.json(), outputs.table_on_stdout());
-    let answer = ContactAnswer::new(&contacts, speed);
     outputs.write(session, || Ok(answer.table()), || Ok(answer.figure()))?;
     if json {
         session.print_json(&answer)
@@ -102,57 +101,6 @@ pub(super) fn run(args: &Contact, session: &Session) -> Result<(), Failure> {
         Ok(())
     } else {
         session.print(&text(&answer))
-    }
-}
-
-impl Contact {
-    /// The contact that opens so.
-    fn contact(&self, opening: Opening) -> Result<SpringDamper, Failure> {
-        let refused = |error: MachineError| Failure::bad(error.to_string());
-        let of = |mass: f64, stiffness: f64| {
-            let contact = match (self.restitution, self.damping_ns_per_m, self.damping_ratio) {
-                (Some(restitution), ..) => SpringDamper::with_restitution(mass, stiffness, restitution, opening),
-                (_, Some(damping), _) => SpringDamper::new(mass, stiffness, damping, opening),
-                (.., Some(ratio)) => SpringDamper::with_damping_ratio(mass, stiffness, ratio, opening),
-                _ => {
-                    return Err(Failure::bad(
-                        "what does the contact lose?\nhint: --restitution, --damping-ns-per-m or --damping-ratio",
-                    ));
-                }
-            };
-            contact.map_err(refused)
-        };
-        let square = self.frequency_hz.map(|hertz| (TAU * hertz) * (TAU * hertz));
-        match (self.mass_kg, self.stiffness_n_per_m, square, self.contact_time_s) {
-            (Some(_), Some(_), Some(_), _) => {
-                Err(Failure::bad("mass, stiffness and frequency: two of them give the third\nhint: leave one away"))
-            }
-            (Some(mass), Some(stiffness), None, _) => of(mass, stiffness),
-            (Some(mass), None, Some(square), _) => of(mass, mass * square),
-            (None, Some(stiffness), Some(square), _) => of(stiffness / square, stiffness),
-            // of each kilogram
-            (None, None, Some(square), _) => of(1.0, square),
-            (Some(mass), None, None, Some(time)) => {
-                if self.damping_ns_per_m.is_some() {
-                    return Err(Failure::bad(
-                        "--contact-time-s and --damping-ns-per-m do not determine a stiffness\nhint: --restitution or --damping-ratio",
-                    ));
-                }
-                // with a given ratio the time falls as the root of the stiffness
-                let unit = of(mass, mass)?;
-                let turned = unit.contact_time() / time;
-                if !(turned > 0.0 && turned.is_finite()) {
-                    return Err(Failure::bad(format!(
-                        "no stiffness gives the contact time {time}: a contact with damping ratio {} does not open by position",
-                        short(unit.damping_ratio())
-                    )));
-                }
-                of(mass, mass * turned * turned)
-            }
-            _ => Err(Failure::bad(
-                "the spring is not determined\nhint: --mass-kg with --stiffness-n-per-m, --frequency-hz or --contact-time-s",
-            )),
-        }
     }
 }
 

@@ -3,12 +3,11 @@
 use crate::args::{
     MachineArgs, OutputArgs, ParameterFlag, StartOfMachineArgs, SystemArgs, Varied, VariedOver, of_oscillator, whole,
 };
-use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
-use vibroimpact_report::{Asked, Shown};
+use vibroimpact_report::Asked;
 use vibroimpact_study::{CurvePlan, FollowedEvent, Parameter};
 
 /// The curve of an event of an orbit over two parameters: fold, flip or grazing
@@ -153,7 +152,5 @@ pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
         event: args.event,
         points: args.points,
     };
-    let question = system.question(task)?;
-    let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&question, (outputs, Shown::default()), None, session)
+    respond::ask(&system.question(task)?, &args.output, None, session)
 }

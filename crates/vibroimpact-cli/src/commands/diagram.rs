@@ -11,7 +11,7 @@ use crate::session::Session;
 use clap::{Args, ValueEnum};
 use vibroimpact_report::number::short;
 use vibroimpact_report::scene::{BifurcationDiagram, BifurcationEvent, bifurcation, machine_bifurcation};
-use vibroimpact_report::{AnswerError, Asked, Shown, Told, Units, Varied as _};
+use vibroimpact_report::{AnswerError, Asked, Told, Units, Varied as _};
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, ShowText, SweepDirection};
 use vibroimpact_study::{DiagramPlan, PlanError, System, Task, Values, Variable};
 
@@ -205,11 +205,11 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
         return Err(PlanError::NoStoredQuantity.into());
     }
     let question = system.stored(task, Some(&args.store))?;
-    let outputs = Outputs::reserve(args.output.files(), session)?;
     if let Some(labels) = &args.branches {
+        let outputs = Outputs::reserve(args.output.files(), session)?;
         return with_branches(&question, given(labels).as_deref(), outputs, session);
     }
-    respond::run(&question, (outputs, Shown::default()), Some(&args.store), session)
+    respond::ask(&question, &args.output, Some(&args.store), session)
 }
 
 /// The diagram with the branches of these labels; without labels of those found on the line.

@@ -1,12 +1,10 @@
 //! `vibro edge`: the border between the starts of two motions, and the saddle on it.
 
 use crate::args::{OutputArgs, StartedArgs, number, whole};
-use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use vibroimpact_report::Shown;
 use vibroimpact_study::{Coordinate, EdgePlan, Name, PlacePlan, PlanError, Variable};
 
 /// The border between the starts that lead to two motions, and the unstable motion on it
@@ -71,7 +69,5 @@ pub(super) fn run(args: &Edge, session: &Session) -> Result<(), Failure> {
     });
     let other = other.collect::<Result<_, PlanError>>()?;
     let task = EdgePlan { start, other, laps: args.laps, impacts: args.impacts };
-    let question = system.question(task)?;
-    let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&question, (outputs, Shown::default()), None, session)
+    respond::ask(&system.question(task)?, &args.output, None, session)
 }

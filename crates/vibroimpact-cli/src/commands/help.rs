@@ -1,9 +1,10 @@
 //! `vibro help [COMMAND|TOPIC]`.
 
+use crate::commands::CommandLine;
 use crate::failure::Failure;
 use crate::help::{shown, topic, topics};
 use crate::session::Session;
-use clap::{Args, Command};
+use clap::{Args, CommandFactory};
 
 /// Explain a command, or a topic: system, figure, units, quantities, machines
 #[derive(Clone, Debug, Args)]
@@ -14,7 +15,8 @@ pub(crate) struct Help {
     of: Vec<String>,
 }
 
-pub(super) fn run(args: &Help, command: Command, session: &Session) -> Result<(), Failure> {
+pub(super) fn run(args: &Help, session: &Session) -> Result<(), Failure> {
+    let command = CommandLine::command();
     if let [name] = args.of.as_slice()
         && let Some(text) = topic(name, &command)
     {

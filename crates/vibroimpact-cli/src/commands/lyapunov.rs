@@ -1,12 +1,11 @@
 //! `vibro lyapunov`: the Lyapunov exponents of a motion, and sections of its attractor.
 
 use crate::args::{OutputArgs, StartedArgs, StoreArgs, StudyAxesArgs, whole};
-use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use vibroimpact_report::{ReportError, Shown};
+use vibroimpact_report::ReportError;
 use vibroimpact_study::{Axis, Coordinate, DEFAULT_POINTS, LyapunovPlan, Variable};
 
 /// The Lyapunov exponents of the motion from a start, with error bars, and the dimension of its attractor
@@ -93,7 +92,5 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
     let (impacts, transient) = (args.impacts, args.transient);
     let task = LyapunovPlan { axes, start, impacts, transient, points };
     let store = study.then_some(&args.store);
-    let question = system.stored(task, store)?;
-    let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&question, (outputs, Shown::default()), store, session)
+    respond::ask(&system.stored(task, store)?, &args.output, store, session)
 }

@@ -1,9 +1,10 @@
 //! `vibro man [DIR]`.
 
+use crate::commands::CommandLine;
 use crate::failure::Failure;
 use crate::files::Target;
 use crate::session::Session;
-use clap::{Args, Command};
+use clap::{Args, Command, CommandFactory};
 use clap_mangen::Man as Page;
 use std::path::PathBuf;
 use vibroimpact_study::counted;
@@ -17,7 +18,8 @@ pub(crate) struct Man {
     directory: Option<PathBuf>,
 }
 
-pub(super) fn run(args: &Man, mut command: Command, session: &Session) -> Result<(), Failure> {
+pub(super) fn run(args: &Man, session: &Session) -> Result<(), Failure> {
+    let mut command = CommandLine::command();
     command.build();
     let Some(directory) = &args.directory else {
         let page = rendered(command)?;

@@ -3,7 +3,6 @@
 use crate::args::{
     ColourArgs, FieldsArgs, MachineArgs, MachineAxesArgs, OutputArgs, OverlayArgs, RangedSystemArgs, StoreArgs, whole,
 };
-use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
@@ -103,8 +102,9 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
         fields: system.fields(&args.colour, &args.fields)?,
     };
     let question = system.stored(task, Some(&args.store))?;
-    let outputs = Outputs::reserve(args.output.files(), session)?;
-    let colour = args.colour.coloured(outputs.drawn())?;
-    let overlay = args.overlay.overlay(outputs.drawn(), colour.is_some())?;
-    respond::run(&question, (outputs, Shown { colour, overlay, ..Shown::default() }), Some(&args.store), session)
+    let drawn = args.output.plot.is_some();
+    let colour = args.colour.coloured(drawn)?;
+    let overlay = args.overlay.overlay(drawn, colour.is_some())?;
+    let shown = Shown { colour, overlay, ..Shown::default() };
+    respond::run(&question, (&args.output, shown), Some(&args.store), session)
 }

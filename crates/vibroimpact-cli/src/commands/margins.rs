@@ -1,12 +1,11 @@
 //! `vibro margins`: how far a periodic motion is from the events that end or change it.
 
 use crate::args::{Named, OutputArgs, ParameterFlag, StartedArgs, Varied, VariedNamed, number, varied, whole};
-use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use vibroimpact_report::{Asked, Shown};
+use vibroimpact_report::Asked;
 use vibroimpact_study::{DEFAULT_LINES, DEFAULT_WITHIN, MarginsPlan, Parameter, ScaledParameter, StartPlan, Variable};
 
 /// How far a motion is from the events that end or change it
@@ -95,9 +94,7 @@ pub(super) fn run(args: &Margins, session: &Session) -> Result<(), Failure> {
     }
     let lines = (!machine).then_some(args.lines);
     let task = MarginsPlan { start, label: args.label.clone(), vary, within: args.within, lines };
-    let question = system.question(task)?;
-    let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&question, (outputs, Shown::default()), None, session)
+    respond::ask(&system.question(task)?, &args.output, None, session)
 }
 
 impl Margins {

@@ -40,7 +40,7 @@ mod verify;
 use crate::args::Globals;
 use crate::failure::Failure;
 use crate::session::Session;
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
 
 /// Vibro-impact dynamics: what an oscillator that strikes a stop does, settles into, and from where.
 ///
@@ -69,77 +69,67 @@ pub(crate) struct CommandLine {
     command: Command,
 }
 
-#[derive(Debug, Subcommand)]
-enum Command {
-    Simulate(simulate::Simulate),
-    Settle(settle::Settle),
-    SettleMany(settle_many::SettleMany),
-    Attractors(attractors::Attractors),
-    Orbit(orbit::Orbit),
-    Branch(branch::Branch),
-    Curve(curve::Curve),
-    Region(region::Region),
-    Response(response::Response),
-    Margins(margins::Margins),
-    Contact(contact::Contact),
-    Edge(edge::Edge),
-    Machine(machine::MachineCommand),
-    Basin(basin::Basin),
-    Map(map::Map),
-    Diagram(diagram::Diagram),
-    Lyapunov(lyapunov::Lyapunov),
-    Explore(explore::Explore),
-    Estimate(estimate::Estimate),
-    Run(run::Run),
-    Resume(resume::Resume),
-    Status(status::Status),
-    Verify(verify::Verify),
-    Export(export::Export),
-    Plot(plot::Plot),
-    Slurm(slurm::Slurm),
-    Schema(schema::Schema),
-    Bench(bench::Bench),
-    #[cfg(feature = "reproduce")]
-    Reproduce(reproduce::Reproduce),
-    Completions(completions::Completions),
-    Man(man::Man),
-    Help(help::Help),
+/// The commands from one list: their arguments, what runs them, and the parser of one of them alone.
+macro_rules! commands {
+    ($($(#[$when:meta])* $name:ident($word:literal, $module:ident::$args:ident),)*) => {
+        #[derive(Debug, Subcommand)]
+        enum Command {
+            $($(#[$when])* #[command(name = $word)] $name($module::$args),)*
+        }
+
+        /// Runs the command of a command line.
+        pub(crate) fn run(line: &CommandLine, session: &Session) -> Result<(), Failure> {
+            match &line.command {
+                $($(#[$when])* Command::$name(args) => $module::run(args, session),)*
+            }
+        }
+
+        /// The parser of a command line with one command, which is named so. To make the arguments of all commands takes longer
+        /// than a short question.
+        pub(crate) fn alone(word: &str) -> Option<clap::Command> {
+            let named = match word {
+                $($(#[$when])* $word => $module::$args::augment_args(clap::Command::new($word)),)*
+                _ => return None,
+            };
+            // `help` is a command of this list
+            let line = clap::Command::new("vibro").disable_help_subcommand(true);
+            Some(Globals::augment_args(line).subcommand(named))
+        }
+    };
 }
 
-pub(crate) fn run(line: &CommandLine, session: &Session) -> Result<(), Failure> {
-    match &line.command {
-        Command::Simulate(args) => simulate::run(args, session),
-        Command::Settle(args) => settle::run(args, session),
-        Command::SettleMany(args) => settle_many::run(args, session),
-        Command::Attractors(args) => attractors::run(args, session),
-        Command::Orbit(args) => orbit::run(args, session),
-        Command::Branch(args) => branch::run(args, session),
-        Command::Curve(args) => curve::run(args, session),
-        Command::Region(args) => region::run(args, session),
-        Command::Response(args) => response::run(args, session),
-        Command::Margins(args) => margins::run(args, session),
-        Command::Contact(args) => contact::run(args, session),
-        Command::Edge(args) => edge::run(args, session),
-        Command::Machine(args) => machine::run(args, session),
-        Command::Basin(args) => basin::run(args, session),
-        Command::Map(args) => map::run(args, session),
-        Command::Diagram(args) => diagram::run(args, session),
-        Command::Lyapunov(args) => lyapunov::run(args, session),
-        Command::Explore(args) => explore::run(args, session),
-        Command::Estimate(args) => estimate::run(args, session),
-        Command::Run(args) => run::run(args, session),
-        Command::Resume(args) => resume::run(args, session),
-        Command::Status(args) => status::run(args, session),
-        Command::Verify(args) => verify::run(args, session),
-        Command::Export(args) => export::run(args, session),
-        Command::Plot(args) => plot::run(args, session),
-        Command::Slurm(args) => slurm::run(args, session),
-        Command::Schema(args) => schema::run(args, session),
-        Command::Bench(args) => bench::run(args, session),
-        #[cfg(feature = "reproduce")]
-        Command::Reproduce(args) => reproduce::run(args, session),
-        Command::Completions(args) => completions::run(*args, CommandLine::command(), session),
-        Command::Man(args) => man::run(args, CommandLine::command(), session),
-        Command::Help(args) => help::run(args, CommandLine::command(), session),
-    }
+commands! {
+    Simulate("simulate", simulate::Simulate),
+    Settle("settle", settle::Settle),
+    SettleMany("settle-many", settle_many::SettleMany),
+    Attractors("attractors", attractors::Attractors),
+    Orbit("orbit", orbit::Orbit),
+    Branch("branch", branch::Branch),
+    Curve("curve", curve::Curve),
+    Region("region", region::Region),
+    Response("response", response::Response),
+    Margins("margins", margins::Margins),
+    Contact("contact", contact::Contact),
+    Edge("edge", edge::Edge),
+    Machine("machine", machine::MachineCommand),
+    Basin("basin", basin::Basin),
+    Map("map", map::Map),
+    Diagram("diagram", diagram::Diagram),
+    Lyapunov("lyapunov", lyapunov::Lyapunov),
+    Explore("explore", explore::Explore),
+    Estimate("estimate", estimate::Estimate),
+    Run("run", run::Run),
+    Resume("resume", resume::Resume),
+    Status("status", status::Status),
+    Verify("verify", verify::Verify),
+    Export("export", export::Export),
+    Plot("plot", plot::Plot),
+    Slurm("slurm", slurm::Slurm),
+    Schema("schema", schema::Schema),
+    Bench("bench", bench::Bench),
+    #[cfg(feature = "reproduce")]
+    Reproduce("reproduce", reproduce::Reproduce),
+    Completions("completions", completions::Completions),
+    Man("man", man::Man),
+    Help("help", help::Help),
 }

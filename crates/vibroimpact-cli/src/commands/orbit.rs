@@ -1,12 +1,10 @@
 //! `vibro orbit`: the periodic orbits with a label, stable or not.
 
 use crate::args::{MachineArgs, OutputArgs, SystemArgs};
-use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use vibroimpact_report::Shown;
 use vibroimpact_study::Task;
 
 /// All periodic orbits with m impacts in n forcing periods, stable or unstable
@@ -50,7 +48,5 @@ pub(crate) struct Orbit {
 
 pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
     let system = args.machine.or_oscillator(None, || args.system.asked())?;
-    let question = system.question(Task::Orbit { label: args.label.clone() })?;
-    let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&question, (outputs, Shown::default()), None, session)
+    respond::ask(&system.question(Task::Orbit { label: args.label.clone() })?, &args.output, None, session)
 }

@@ -3,12 +3,10 @@
 use crate::args::{
     AxesArgs, BodyArgs, Convention, MachineArgs, NumbersArgs, OutputArgs, VariedOver, of_oscillator, ranges, whole,
 };
-use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use vibroimpact_report::Shown;
 use vibroimpact_study::{DEFAULT_GRID, RegionPlan, Stretch, Variable};
 
 /// Where a motion exists and where it is stable, over two parameters: closed polygons
@@ -121,7 +119,5 @@ pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
     })?;
     let [across, up] = plane.map_or_else(|| args.of_machine(), Ok)?;
     let task = RegionPlan { label: args.label.clone(), across, up, grid: args.grid };
-    let question = system.question(task)?;
-    let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&question, (outputs, Shown::default()), None, session)
+    respond::ask(&system.question(task)?, &args.output, None, session)
 }

@@ -1,6 +1,6 @@
 //! Common part of the commands with one answer: compute it, write the files, and print the report.
 
-use crate::args::{Question, StoreArgs};
+use crate::args::{OutputArgs, Question, StoreArgs};
 use crate::commands::outputs::Outputs;
 use crate::commands::stored;
 use crate::failure::Failure;
@@ -9,15 +9,26 @@ use crate::session::Session;
 use vibroimpact_report::{Answer, AnswerError, Shown, answer};
 use vibroimpact_study::{Control, Stopped, Task};
 
+/// Computes the answer to a question and reports it as usual.
+pub(super) fn ask(
+    question: &Question<'_>,
+    output: &OutputArgs,
+    store: Option<&StoreArgs>,
+    session: &Session,
+) -> Result<(), Failure> {
+    run(question, (output, Shown::default()), store, session)
+}
+
 /// Computes the answer to a question and reports it. With --store, the plan fills the store instead. Exponents over axes are a
 /// study, with a store or in memory.
 pub(super) fn run(
     question: &Question<'_>,
-    (outputs, shown): (Outputs, Shown),
+    (output, shown): (&OutputArgs, Shown),
     store: Option<&StoreArgs>,
     session: &Session,
 ) -> Result<(), Failure> {
     let plan = &question.plan;
+    let outputs = Outputs::reserve(output.files(), session)?;
     stored::check_overlay(&shown.overlay, plan, shown.colour.is_some())?;
     outputs.check(plan)?;
     let filling = store.and_then(StoreArgs::filling);

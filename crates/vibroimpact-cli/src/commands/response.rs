@@ -1,12 +1,10 @@
 //! `vibro response`: a quantity of all motions over one parameter.
 
 use crate::args::{MachineArgs, MachineAxesArgs, OutputArgs, RangedSystemArgs, StartOfMachineArgs, quantity, whole};
-use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use vibroimpact_report::Shown;
 use vibroimpact_study::{Axis, ResponsePlan};
 
 /// The response over a number, such as the frequency: a quantity of all motions, from branches and sweeps
@@ -77,7 +75,5 @@ pub(super) fn run(args: &Response, session: &Session) -> Result<(), Failure> {
     };
     let task =
         ResponsePlan { quantity, impacts: args.impacts, ..ResponsePlan::new(axis.vary.clone(), axis.over.clone()) };
-    let question = system.question(task)?;
-    let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&question, (outputs, Shown::default()), None, session)
+    respond::ask(&system.question(task)?, &args.output, None, session)
 }

@@ -85,10 +85,9 @@ fn run_machine(args: &Run, plan: Plan, session: &Session) -> Result<(), Failure>
     }
     args.colour.coloured(false)?;
     args.overlay.overlay(false, false)?;
-    let outputs = Outputs::reserve(args.output.files(), session)?;
     let name = args.plan.file_stem().map_or_else(|| "machine".into(), |stem| stem.to_string_lossy());
     let question = Question { plan, units: Units::default(), machine: Some(&name) };
-    respond::run(&question, (outputs, Shown::default()), None, session)
+    respond::ask(&question, &args.output, None, session)
 }
 
 /// The default place of the store of a plan.

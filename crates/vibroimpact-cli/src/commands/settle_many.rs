@@ -251,13 +251,12 @@ pub(super) fn run(args: &SettleMany, session: &Session) -> Result<(), Failure> {
         None => ManyPlan { points: args.points_of_machine()?, impacts: args.impacts, fields }.into(),
     };
     let question = system.stored(task, Some(&args.store))?;
-    let outputs = Outputs::reserve(args.output.files(), session)?;
-    let looks = (outputs, Shown::default());
     // the points of an oscillator are a study
     if question.machine.is_some() {
-        return respond::run(&question, looks, Some(&args.store), session);
+        return respond::ask(&question, &args.output, Some(&args.store), session);
     }
-    stored::filled(&question.plan, args.store.filling(), looks, session)
+    let outputs = Outputs::reserve(args.output.files(), session)?;
+    stored::filled(&question.plan, args.store.filling(), (outputs, Shown::default()), session)
 }
 
 fn without_points() -> Failure {

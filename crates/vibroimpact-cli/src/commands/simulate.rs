@@ -1,7 +1,6 @@
 //! `vibro simulate`: the events of a motion.
 
 use crate::args::{OutputArgs, StartedArgs, number, whole};
-use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
@@ -56,8 +55,7 @@ pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
     let time = system.units().time();
     let question = system.question(Task::Simulate { start, impacts: args.impacts, periods: args.periods })?;
     let step = checked(args.step.map(|step| step / time))?;
-    let outputs = Outputs::reserve(args.output.files(), session)?;
-    respond::run(&question, (outputs, Shown { step, ..Shown::default() }), None, session)
+    respond::run(&question, (&args.output, Shown { step, ..Shown::default() }), None, session)
 }
 
 fn checked(step: Option<f64>) -> Result<Option<f64>, Failure> {

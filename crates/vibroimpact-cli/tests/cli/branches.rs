@@ -1,14 +1,10 @@
 //! Tests of `vibro branch`: points, events and texts.
 
-use crate::{json, vibro};
+use crate::{json, number, printed, refused, vibro};
 use serde_json::{Value, json};
 
 /// Begins below the flip of 1/1 on the line 1/beta = 1.11.
 const DOUBLING: &str = "branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap";
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().expect("a number")
-}
 
 /// The events of a branch, or of the first one of an answer.
 fn events<'a>(branch: &'a Value, kind: &str) -> Vec<&'a Value> {
@@ -135,7 +131,7 @@ fn typed_ends_come_back() {
         let answer = json(&format!("{machine} {line}"));
         let point = |k: usize| answer["branches"][0]["points"][k]["parameter"].to_string();
         let last = answer["branches"][0]["points"].as_array().unwrap().len() - 1;
-        let table = String::from_utf8(vibro(&format!("{machine} {line} --csv -")).output().unwrap().stdout).unwrap();
+        let table = printed(&format!("{machine} {line} --csv -"));
         let rows: Vec<&str> = table.lines().filter(|row| row.starts_with("1,")).collect();
         let cell = |row: &str| row.split(',').nth(1).unwrap().parse::<f64>().unwrap().to_string();
         let table = [cell(rows[0]), cell(rows[last])];
@@ -172,8 +168,7 @@ fn one_of_several_orbits() {
 
 #[test]
 fn text_and_table() {
-    let said = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
-    let text = said(&format!("{DOUBLING} --to 2.5 --follow 1"));
+    let text = printed(&format!("{DOUBLING} --to 2.5 --follow 1"));
     for sentence in [
         "branch 1: 1/1 (stable there), gap from 1.5 to 2.5",
         "flip   1.82900618968  1/1 stable  1/1 unstable",
@@ -183,7 +178,7 @@ fn text_and_table() {
     ] {
         assert!(text.contains(sentence), "{sentence}: {text}");
     }
-    let table = said(&format!("{DOUBLING} --to 2.5 --follow 1 --csv -"));
+    let table = printed(&format!("{DOUBLING} --to 2.5 --follow 1 --csv -"));
     let rows: Vec<Vec<&str>> = table.lines().map(|row| row.split(',').collect()).collect();
     assert_eq!(rows[0][..7], ["branch", "gap", "label", "admissible", "stable", "stability", "event"]);
     assert!(rows.iter().all(|row| row.len() == rows[0].len()), "{table}");
@@ -217,16 +212,15 @@ fn a_cycle_that_rests() {
     let settled = |gap: f64| json(&format!("settle --inverse-beta 2.5 --gap {gap} --restitution 0.5"));
     assert_eq!(settled(number(&end["parameter"]) - 1e-4)["motion"]["label"], "inf/1");
     assert_ne!(settled(number(&end["parameter"]) + 1e-3)["motion"]["label"], "inf/1");
-    let said = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
     for sentence in [
         "branch 1: inf/1 (stable there), gap from 0.25 to 1",
         "it lands on the stop without speed",
         "end of rest: the rest on the stop is over as it begins",
     ] {
-        assert!(said(line).contains(sentence), "{sentence}: {}", said(line));
+        assert!(printed(line).contains(sentence), "{sentence}: {}", printed(line));
     }
     assert!(
-        said(&format!("{line} --csv -"))
+        printed(&format!("{line} --csv -"))
             .lines()
             .skip(1)
             .all(|row| row.split(',').count() == 16 && row.contains(",inf/1,true,true,stable,"))
@@ -234,9 +228,9 @@ fn a_cycle_that_rests() {
     // with restitution 0 the label is m/n, and an impact follows the release
     let zero = "branch --inverse-beta 1.3 --gap 0.3 --restitution 0 --label 1/1 --vary gap --to 1";
     assert!(
-        said(zero).contains("1/1 stable  2/1 stable  an impact on the stop appears after the release"),
+        printed(zero).contains("1/1 stable  2/1 stable  an impact on the stop appears after the release"),
         "{}",
-        said(zero)
+        printed(zero)
     );
 }
 
@@ -274,7 +268,7 @@ fn the_branches_at_a_branch_point() {
     let apart = (speed("upper") - speed("lower")).abs();
     assert!(apart > 1e-3 && (apart - unlike(&branches[0], index).abs()).abs() < 1e-6, "{apart}");
     assert_eq!(settled["motion"]["label"], "2/1");
-    let text = String::from_utf8(vibro(&line).output().unwrap().stdout).unwrap();
+    let text = printed(&line);
     for sentence in [
         "branch point",
         "branch 2: 2/1 from the branch point of branch 1 at beta",
@@ -293,7 +287,7 @@ fn touches_of_both_stops() {
     assert!(grazing["stop"] != grazing["also"]["stop"] && grazing["impact"] == Value::Null);
     let apart = (number(&grazing["phase"]) - number(&grazing["also"]["phase"])).abs();
     assert!((apart - std::f64::consts::PI).abs() < 1e-9);
-    let text = String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
+    let text = printed(line);
     assert!(
         text.contains("an impact on the stop appears, phase 2.1019, and an impact on the second stop appears"),
         "{text}"
@@ -312,7 +306,7 @@ fn ever_more_impacts() {
         (&"chatter".into(), &"inf/1".into(), &"end of rest".into())
     );
     assert!((number(&end["parameter"]) - number(&other["parameter"])).abs() < 1e-12);
-    let text = String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
+    let text = printed(line);
     assert!(text.contains(
         "chatter: impacts are added without end, towards a rest on the stop at phase 3.51709; beyond, inf/1"
     ));
@@ -344,15 +338,13 @@ fn a_line_through_two_parameters() {
     let alone = format!("branch --inverse-beta {inverse} --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5");
     assert!((number(&events(&json(&alone), "flip")[0]["parameter"]) - gap).abs() < 1e-11);
     assert_eq!(answer["also"], serde_json::json!({ "parameter": "inverse_beta", "from": 1.11, "to": 1.05 }));
-    let said = vibro(&format!("{DOUBLING} --to 2.5 --also inverse-beta=1.05")).output().expect("vibro runs");
-    let text = String::from_utf8_lossy(&said.stdout).into_owned();
+    let text = printed(&format!("{DOUBLING} --to 2.5 --also inverse-beta=1.05"));
     assert!(text.contains("gap from 1.5 to 2.5, inverse beta from 1.11 to 1.05"), "{text}");
     let table = vibro(&format!("{DOUBLING} --to 2.5 --also inverse-beta=1.05 --csv -")).output().expect("vibro runs");
     assert!(table.stdout.starts_with(b"branch,gap,inverse_beta,label,"));
     for (also, sentence) in [("gap=2", "gap and gap cannot vary together"), ("restitution=2", "restitution eps = 2")] {
-        let refused = vibro(&format!("{DOUBLING} --to 2.5 --also {also}")).output().expect("vibro runs");
-        let said = String::from_utf8_lossy(&refused.stderr).into_owned();
-        assert!(refused.status.code() == Some(2) && said.contains(sentence), "{said}");
+        let said = refused(&format!("{DOUBLING} --to 2.5 --also {also}"));
+        assert!(said.contains(sentence), "{said}");
     }
 }
 
@@ -360,7 +352,7 @@ fn a_line_through_two_parameters() {
 #[test]
 fn f11_between_close_events_the_stability_is_known() {
     let line = "branch --beta 2.55 --gap 0 --restitution 0.8 --label 1/1 --vary beta --to 3 --follow 4";
-    let text = String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
+    let text = printed(line);
     let rows = |kind: &str| text.lines().filter(|row| row.trim_start().starts_with(kind)).collect::<Vec<_>>();
     let fold = rows("fold").into_iter().find(|row| row.contains("2.84935992652")).unwrap();
     assert!(fold.contains("5/4 unstable  5/4 stable"), "{fold}");

@@ -1,6 +1,6 @@
 //! Tests of `--colour`: maps and basins in the colours of a quantity, and of maps over one axis.
 
-use crate::vibro;
+use crate::{printed_in, refused, refused_in};
 use std::path::Path;
 
 const MAP: &str = "map --inverse-beta 1.2:1.4:5 --gap 0.5:1:4 --restitution 0.5 --starts 8";
@@ -9,13 +9,8 @@ const BASIN: &str = "basin --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --x -
 /// A system in physical units: omega_n = 20 rad/s, F/k = 0.005 m.
 const MACHINE: &str = "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --gap-m 0.001:0.004:4 --restitution 0.6";
 
-fn done(folder: &Path, line: &str) {
-    let output = vibro(line).current_dir(folder).output().expect("vibro runs");
-    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-}
-
 fn drawn(folder: &Path, line: &str) -> String {
-    done(folder, &format!("{line} --force --plot figure.svg"));
+    printed_in(folder, &format!("{line} --force --plot figure.svg"));
     std::fs::read_to_string(folder.join("figure.svg")).expect("the figure")
 }
 
@@ -40,16 +35,13 @@ fn a_store_has_the_same_figure() {
         let memory = drawn(folder, line);
         assert_eq!(drawn(folder, &format!("{line} --store s{k}.zarr")), memory, "{line}");
         let colour = &line[line.find(" --colo").expect("colours")..];
-        done(folder, &format!("plot s{k}.zarr again.svg --force {colour}"));
+        printed_in(folder, &format!("plot s{k}.zarr again.svg --force {colour}"));
         assert_eq!(std::fs::read_to_string(folder.join("again.svg")).expect("the figure"), memory, "{line}");
     }
-    let output = vibro("plot s3.zarr b.svg --colour power").current_dir(folder).output().expect("vibro runs");
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{said}");
+    let said = refused_in(folder, "plot s3.zarr b.svg --colour power");
     assert!(said.contains("there are no values of `power`: the plan asks for impact-speed-max"), "{said}");
-    done(folder, "diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0:1:3 --store d.zarr");
-    let output = vibro("plot d.zarr d.svg --colour power").current_dir(folder).output().expect("vibro runs");
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    printed_in(folder, "diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0:1:3 --store d.zarr");
+    let said = refused_in(folder, "plot d.zarr d.svg --colour power");
     assert!(said.contains("only maps and basins have colours by a quantity"), "{said}");
 }
 
@@ -108,9 +100,7 @@ fn what_is_refused() {
             "two axes, not 3",
         ),
     ] {
-        let output = vibro(&line).output().expect("vibro runs");
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{line}: {said}");
+        let said = refused(&line);
         assert!(said.contains(sentence), "{line}: {said}");
     }
 }

@@ -1,16 +1,8 @@
 //! `vibro contact`: restitution, stiffness and damping of a contact.
 
-use crate::{json, vibro};
+use crate::{json, number, printed, refused};
 
 const GIVEN: &str = "contact --restitution 0.6 --mass 0.8kg --stiffness 200N/mm";
-
-fn said(line: &str) -> String {
-    String::from_utf8(vibro(line).output().expect("vibro runs").stdout).expect("text")
-}
-
-fn number(of: &serde_json::Value) -> f64 {
-    of.as_f64().expect("a number")
-}
 
 #[test]
 fn there_and_back() {
@@ -32,12 +24,12 @@ fn there_and_back() {
 
 #[test]
 fn text_and_table() {
-    let text = said(GIVEN);
+    let text = printed(GIVEN);
     assert!(text.contains("by force") && text.contains("by position") && text.contains("contact time (s)"), "{text}");
-    let table = said(&format!("{GIVEN} --csv -"));
+    let table = printed(&format!("{GIVEN} --csv -"));
     let rows: Vec<Vec<&str>> = table.lines().map(|row| row.split(',').collect()).collect();
     assert!(rows.len() == 3 && rows.iter().all(|row| row.len() == rows[0].len()), "{table}");
-    let never = said("contact --damping-ratio 1.2 --mass-kg 1 --stiffness-n-per-m 10");
+    let never = printed("contact --damping-ratio 1.2 --mass-kg 1 --stiffness-n-per-m 10");
     assert!(never.contains("never opens"), "{never}");
 }
 
@@ -52,8 +44,7 @@ fn what_is_refused() {
         ("contact --damping-ratio 1.2 --mass-kg 1 --contact-time-s 0.1", "does not open by position"),
         ("contact --restitution 0.5 --frequency-hz 3 --speed-m-per-s 0", "speed = 0 lies outside"),
     ] {
-        let output = vibro(line).output().unwrap();
-        let complaint = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.code() == Some(2) && complaint.contains(words), "{line}: {complaint}");
+        let complaint = refused(line);
+        assert!(complaint.contains(words), "{line}: {complaint}");
     }
 }

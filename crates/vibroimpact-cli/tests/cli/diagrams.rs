@@ -1,12 +1,10 @@
 //! Tests of the table of `vibro diagram`, row by row.
 
-use crate::{json, vibro};
+use crate::{json, printed, refused, refused_in, vibro};
 
 /// The rows of a table, without the header.
 fn table(line: &str) -> Vec<Vec<String>> {
-    let output = vibro(&format!("{line} --csv -")).output().expect("vibro runs");
-    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-    let text = String::from_utf8(output.stdout).expect("a table is text");
+    let text = printed(&format!("{line} --csv -"));
     text.lines().skip(1).map(|row| row.split(',').map(str::to_owned).collect()).collect()
 }
 
@@ -36,17 +34,15 @@ fn branches_are_in_the_table_and_the_figure() {
     let before = branches.iter().filter(|row| row[6] == "1/1" && number(&row[0]) < 1.8);
     assert!(before.clone().count() > 1 && before.clone().all(|row| row[2] == "stable"));
     // without labels those found on the line are followed; the summary has the events
-    let output = vibro(&format!("{line} --branches")).output().expect("vibro runs");
-    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    let said = printed(&format!("{line} --branches"));
     assert!(said.contains("flip of 1/1 at gap = 1.829"), "{said}");
     for (more, sentence) in [
         ("--show power --branches", "--branches has speeds or positions"),
         ("--branches --json", "cannot be used with"),
         ("--branches 1/0", "1/0"),
     ] {
-        let output = vibro(&format!("{line} {more}")).output().expect("vibro runs");
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(output.status.code() == Some(2) && said.contains(sentence), "{more}: {said}");
+        let said = refused(&format!("{line} {more}"));
+        assert!(said.contains(sentence), "{more}: {said}");
     }
 }
 
@@ -145,9 +141,8 @@ fn listed_values() {
             ("0.5,x", "`0.5,x` is no list of numbers"),
             ("0.5", "range `0.5` is not A:B:N"),
         ] {
-            let output = vibro(&format!("{line} --over {over}")).output().expect("vibro runs");
-            let said = String::from_utf8_lossy(&output.stderr).into_owned();
-            assert!(output.status.code() == Some(2) && said.contains(sentence), "{over}: {said}");
+            let said = refused(&format!("{line} --over {over}"));
+            assert!(said.contains(sentence), "{over}: {said}");
         }
     }
     let rows = table("diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 2,0.6,0.5,0 --keep 1");
@@ -159,13 +154,11 @@ fn listed_values() {
 #[test]
 fn both_numbers_of_a_machine_are_named() {
     let line = "diagram --machine two-mass-hammer --vary frequency --over 0.9:1:2 --also stop.anvil.gap=0.4:0.5 --transient 50";
-    let output = vibro(line).output().expect("vibro runs");
-    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    let said = printed(line);
     assert!(said.starts_with("2 values of frequency from 0.9 to 1, stop.anvil.gap from 0.4 to 0.5\n"), "{said}");
     let line = "branch --machine two-mass-hammer --vary frequency --to 1.01 --plot a.svg --virtual";
-    let output = vibro(line).output().expect("vibro runs");
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.code() == Some(2) && said.contains("--virtual") && said.contains("--machine"), "{said}");
+    let said = refused(line);
+    assert!(said.contains("--virtual") && said.contains("--machine"), "{said}");
 }
 
 /// The figure of a diagram over the gap.
@@ -291,9 +284,7 @@ fn a_quantity_of_the_settled_motion() {
         } else {
             format!("{line} {options}")
         };
-        let output = vibro(&line).current_dir(&folder).output().expect("vibro runs");
-        let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{complaint}");
+        let complaint = refused_in(&folder, &line);
         assert!(complaint.contains(sentence), "{complaint}");
     }
     // a plan in a file is refused too

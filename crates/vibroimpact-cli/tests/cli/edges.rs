@@ -1,16 +1,15 @@
 //! Special cases of the interface: exact ends of ranges, `-` for stdout, empty places, and counts in texts.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use crate::{S, json, vibro};
+use crate::{S, json, refused_in, vibro};
 use std::fs;
 
 /// Exit code, stdout and stderr.
 fn ran(line: &str) -> (Option<i32>, String, String) {
     let folder = tempfile::tempdir().unwrap();
-    let output = vibro(line).current_dir(&folder).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
+    let ended = crate::ran(&folder, line);
     assert!(!folder.path().join("-").exists(), "{line} made a file or folder named -");
-    (output.status.code(), text(output.stdout), text(output.stderr))
+    ended
 }
 
 fn refused(line: &str, sentence: &str) {
@@ -133,8 +132,7 @@ fn f11c_all_that_is_missing_is_named() {
     }
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("p.toml"), "version = 1\n[task.attractors]\nstarts = 5\nseed = 1\n").unwrap();
-    let output = vibro("run p.toml").current_dir(&folder).output().unwrap();
-    let complaint = String::from_utf8(output.stderr).unwrap();
+    let complaint = refused_in(&folder, "run p.toml");
     assert!(complaint.contains("beta or inverse_beta, gap, restitution"), "{complaint}");
 }
 

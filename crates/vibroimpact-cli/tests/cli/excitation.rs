@@ -1,7 +1,7 @@
 //! Machines that are driven by more than a force, on the command line.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use crate::{json, vibro};
+use crate::{json, printed, vibro};
 
 const MACHINE: &str = "--mass-kg 0.7 --stiffness-n-per-m 900 --damping-ns-per-m 2.1 --gap-m 0.004 --restitution 0.7 \
                        --omega-rad-per-s 31 --units si";
@@ -206,9 +206,7 @@ fn both_gaps_of_a_machine_move_together() {
     let line = format!(
         "diagram {machine} --gap-m 0.001 --second-gap-m 0.002 --vary gap-m --over 0.001:-0.003:3 --also second-gap-m=0.002:0.006 --keep 2 --transient 20 --csv -"
     );
-    let output = vibro(&line).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let text = String::from_utf8(output.stdout).unwrap();
+    let text = printed(&line);
     assert!(text.lines().any(|row| row.starts_with("-0.003,0.006,")), "{text}");
     let missing =
         vibro(&format!("map {} --force-n 1:3:3 --gap-m 0.004", machine.replace("--force-n 3 ", ""))).output().unwrap();

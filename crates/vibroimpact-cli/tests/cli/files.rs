@@ -1,6 +1,6 @@
 //! Tests of files and pipes: complete or absent, not overwritten without --force, equal for any number of threads.
 
-use crate::{S, vibro};
+use crate::{S, refused_in, vibro};
 use std::fs;
 use std::io::Read;
 use std::process::{Command, Stdio};
@@ -80,9 +80,7 @@ fn places_that_cannot_hold_a_file() {
         ("--plot nowhere/a.png", "there is no directory"),
     ] {
         let line = format!("simulate {S} {place}");
-        let output = vibro(&line).current_dir(&folder).output().unwrap();
-        let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{complaint}");
+        let complaint = refused_in(&folder, &line);
         assert!(complaint.contains(sentence), "{complaint}");
     }
     let twice = format!("basin {S} {GRID} --csv same.svg --plot same.svg");

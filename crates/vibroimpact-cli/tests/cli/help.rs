@@ -1,18 +1,11 @@
 //! Help: its examples run as they are written, and topics have what commands share.
 
-use crate::vibro;
+use crate::{printed, vibro};
 use std::fs;
-
-/// What a command prints.
-fn text(line: &str) -> String {
-    let output = vibro(line).output().expect("vibro runs");
-    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).expect("text")
-}
 
 /// The examples of a command, each as one line.
 fn examples(command: &str) -> Vec<String> {
-    let help = text(&format!("{command} --help"));
+    let help = printed(&format!("{command} --help"));
     let (_, examples) = help.split_once("\nExample").expect("examples");
     let lines = examples.replace(" \\\n    ", " ");
     lines.lines().filter_map(|line| line.trim().strip_prefix("vibro ").map(str::to_owned)).collect()
@@ -65,8 +58,8 @@ fn examples_run_in_an_empty_folder() {
 
 #[test]
 fn topics_and_commands_are_explained() {
-    let help = |of: &str| text(&format!("help {of}"));
-    assert_eq!(help("settle"), text("settle --help"));
+    let help = |of: &str| printed(&format!("help {of}"));
+    assert_eq!(help("settle"), printed("settle --help"));
     assert!(help("machine show").contains("--toml") && help("").contains("vibro help units"));
     assert!(help("system").contains("--stiffness-n-per-m <K>") && help("system").contains("--machine <NAME|FILE>"));
     assert!(help("figure").contains("--greyscale") && help("figure").contains("--threads <N>"));

@@ -1,6 +1,6 @@
 //! Tests of `vibro lyapunov`: exponents with errors or the reason for their absence, and the points of both sections.
 
-use crate::{S, json, vibro};
+use crate::{S, json, printed, refused, vibro};
 use serde_json::Value;
 
 /// U of the 1971 paper, where the motion is chaotic.
@@ -75,8 +75,7 @@ fn a_machine_in_physical_units() {
 
 #[test]
 fn both_sections_as_a_table() {
-    let output = vibro(&format!("lyapunov {S} --impacts 1000 --section - --points 4")).output().unwrap();
-    let table = String::from_utf8(output.stdout).unwrap();
+    let table = printed(&format!("lyapunov {S} --impacts 1000 --section - --points 4"));
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(rows[0], ["section", "stop", "phase", "speed", "x", "v"]);
     assert_eq!(rows.len(), 9, "{table}");
@@ -99,7 +98,7 @@ fn both_sections_as_a_table() {
     }
     // after an impact on the lower stop the velocity is positive
     let line = "lyapunov --beta 0.7 --gap 0.6 --restitution 0.7 --second-gap 0.8 --impacts 1000 --csv - --points 50";
-    let table = String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
+    let table = printed(line);
     let lower: Vec<&str> = table.lines().filter(|row| row.starts_with("closing,lower,")).collect();
     assert!(!lower.is_empty() && lower.iter().all(|row| row.contains(",-0.8,") && !row.contains(",-0.8,-")), "{table}");
 }
@@ -131,9 +130,7 @@ fn text_for_people() {
 #[test]
 fn exponents_over_axes_are_those_of_each_point() {
     let rows = |line: &str| -> Vec<Vec<String>> {
-        let output = vibro(line).output().unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let text = String::from_utf8(output.stdout).unwrap();
+        let text = printed(line);
         text.lines().map(|row| row.split(',').map(str::to_owned).collect()).collect()
     };
     let length = "--impacts 1000 --transient 100";
@@ -176,8 +173,7 @@ fn exponents_over_axes_are_those_of_each_point() {
         (format!("lyapunov {U} --store s.zarr"), "one motion needs no store"),
         (format!("lyapunov {U} --axis gap=1:2:3 --points 5 --plot a.png"), "without --axis"),
     ] {
-        let output = vibro(&line).output().unwrap();
-        let text = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(output.status.code() == Some(2) && text.contains(said), "{line}: {text}");
+        let text = refused(&line);
+        assert!(text.contains(said), "{line}: {text}");
     }
 }

@@ -1,32 +1,9 @@
 //! Studies of machines from outside: the same results with a store and without, in parts, refined, damaged and mended.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use crate::{json, vibro};
+use crate::{files, json, printed_in, refused, refused_in, vibro};
 use serde_json::Value;
-use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
-
-/// Runs `vibro` in a folder, and returns what it prints.
-fn done(folder: &Path, line: &str) -> String {
-    let output = vibro(line).current_dir(folder).output().unwrap();
-    let complaint = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{line}: {complaint}");
-    String::from_utf8(output.stdout).unwrap()
-}
-
-/// All files of a store.
-fn files(store: &Path) -> BTreeMap<String, Vec<u8>> {
-    let all = walk(store);
-    all.into_iter()
-        .map(|path| (path.strip_prefix(store).unwrap().display().to_string(), fs::read(&path).unwrap()))
-        .collect()
-}
-
-fn walk(folder: &Path) -> Vec<std::path::PathBuf> {
-    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    entries.flat_map(|path| if path.is_dir() { walk(&path) } else { vec![path] }).collect()
-}
 
 const FIELDS: &str = "map --machine two-mass-hammer --axis stop.anvil.gap=0.3:0.7:5 --starts 2 --fields power,stop.anvil.impact-speed-max,q.head.displacement_rms";
 const MAP: &str =
@@ -60,19 +37,19 @@ fn stores_have_the_results_of_commands() {
             "diagram --machine soft-stop --vary frequency --over 0.7:0.9:3 --show qdot.mass --direction scatter --starts 3 --transient 20",
         ),
     ] {
-        done(here, &format!("{line} --csv {name}.csv --plot {name}.svg"));
-        done(here, &format!("{line} --store {name}.zarr --csv {name}-stored.csv --plot {name}-stored.svg"));
+        printed_in(here, &format!("{line} --csv {name}.csv --plot {name}.svg"));
+        printed_in(here, &format!("{line} --store {name}.zarr --csv {name}-stored.csv --plot {name}-stored.svg"));
         for kind in ["csv", "svg"] {
             let read = |name: &str| fs::read_to_string(here.join(format!("{name}.{kind}"))).unwrap();
             assert_eq!(read(name), read(&format!("{name}-stored")), "{name}.{kind}");
         }
-        done(here, &format!("plot {name}.zarr {name}-again.svg"));
+        printed_in(here, &format!("plot {name}.zarr {name}-again.svg"));
         assert_eq!(
             fs::read(here.join(format!("{name}.svg"))).unwrap(),
             fs::read(here.join(format!("{name}-again.svg"))).unwrap()
         );
-        assert!(done(here, &format!("verify {name}.zarr --sample 100")).contains("nothing is wrong"), "{name}");
-        let status = done(here, &format!("status {name}.zarr"));
+        assert!(printed_in(here, &format!("verify {name}.zarr --sample 100")).contains("nothing is wrong"), "{name}");
+        let status = printed_in(here, &format!("status {name}.zarr"));
         assert!(status.contains("complete\n") && status.contains("[machine]"), "{status}");
     }
 }
@@ -83,12 +60,8 @@ fn attractors_of_machines_have_no_store() {
     let folder = tempfile::tempdir().unwrap();
     let plan = json("attractors --machine two-mass-hammer --starts 2")["plan"].clone();
     fs::write(folder.path().join("a.json"), plan.to_string()).unwrap();
-    let said = vibro("run a.json --store a.zarr").current_dir(folder.path()).output().unwrap();
-    let complaint = String::from_utf8(said.stderr).unwrap();
-    assert!(
-        said.status.code() == Some(2) && complaint.contains("map, basin, settle-many, diagram, and lyapunov over axes"),
-        "{complaint}"
-    );
+    let complaint = refused_in(folder.path(), "run a.json --store a.zarr");
+    assert!(complaint.contains("map, basin, settle-many, diagram, and lyapunov over axes"), "{complaint}");
 }
 
 /// Two jobs with a part each fill the same store as one, byte by byte; a tile that is damaged is computed again.
@@ -98,20 +71,20 @@ fn parts_and_damage() {
     let here = folder.path();
     let plan = json(BASIN)["plan"].clone();
     fs::write(here.join("study.json"), plan.to_string()).unwrap();
-    done(here, "run study.json");
-    done(here, "run study.json --store parts.zarr --tiles 2/2");
-    let half: Value = serde_json::from_str(&done(here, "status parts.zarr --json")).unwrap();
+    printed_in(here, "run study.json");
+    printed_in(here, "run study.json --store parts.zarr --tiles 2/2");
+    let half: Value = serde_json::from_str(&printed_in(here, "status parts.zarr --json")).unwrap();
     assert!(half["complete"] == false && half["tiles_done"].as_u64() < half["tiles"].as_u64(), "{half}");
-    done(here, "run study.json --store parts.zarr --tiles 1/2");
+    printed_in(here, "run study.json --store parts.zarr --tiles 1/2");
     let whole = files(&here.join("study.zarr"));
     assert_eq!(files(&here.join("parts.zarr")), whole);
     // the first chunk of the labels
     let chunk = whole.keys().find(|name| name.starts_with("label/c/")).unwrap();
     fs::write(here.join("parts.zarr").join(chunk), b"damaged").unwrap();
     assert_eq!(vibro("verify parts.zarr").current_dir(here).output().unwrap().status.code(), Some(1));
-    done(here, "resume parts.zarr");
+    printed_in(here, "resume parts.zarr");
     assert_eq!(files(&here.join("parts.zarr")), whole);
-    let script = done(here, "slurm study.json --jobs 4");
+    let script = printed_in(here, "slurm study.json --jobs 4");
     assert!(script.contains("run ") && script.contains("--tiles"), "{script}");
 }
 
@@ -121,9 +94,9 @@ fn refined_maps() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     let line = "map --machine two-mass-hammer --axis frequency=0.9:1.2:17 --axis stop.anvil.gap=0.4:0.6:9 --starts 1";
-    let whole = done(here, &format!("{line} --csv -"));
-    done(here, &format!("{line} --store refined.zarr --tile 17 --refine 4"));
-    let table = done(here, "export refined.zarr --csv -");
+    let whole = printed_in(here, &format!("{line} --csv -"));
+    printed_in(here, &format!("{line} --store refined.zarr --tile 17 --refine 4"));
+    let table = printed_in(here, "export refined.zarr --csv -");
     let labels: Vec<&str> = whole.lines().skip(1).map(|row| row.split(',').nth(2).unwrap()).collect();
     let rows: Vec<Vec<&str>> = table.lines().skip(1).map(|row| row.split(',').collect()).collect();
     assert_eq!((labels.len(), rows.len()), (17 * 9, 17 * 9));
@@ -140,7 +113,7 @@ const ONE: &str = "[machine]\ncoordinates = [\"x\"]\nmass = [1]\nstiffness = [1]
 #[test]
 fn fields_are_quantities() {
     let folder = tempfile::tempdir().unwrap();
-    let table = done(folder.path(), &format!("{FIELDS} --csv -"));
+    let table = printed_in(folder.path(), &format!("{FIELDS} --csv -"));
     let mut lines = table.lines();
     let header = "stop.anvil.gap,label,share,power,stop.anvil.impact_speed_max,q.head.displacement_rms";
     assert_eq!(lines.next(), Some(header));
@@ -159,10 +132,7 @@ fn fields_are_quantities() {
             assert!((a - b).abs() < 1e-7 * b.abs(), "{line}: {value}");
         }
     }
-    let said = vibro("map --machine two-mass-hammer --axis frequency=1:2:3 --starts 1 --fields stop.anvil.gap")
-        .output()
-        .unwrap();
-    let said = String::from_utf8(said.stderr).unwrap();
+    let said = refused("map --machine two-mass-hammer --axis frequency=1:2:3 --starts 1 --fields stop.anvil.gap");
     assert!(said.contains("stop.anvil.gap"), "{said}");
 }
 
@@ -174,7 +144,7 @@ fn a_diagram_of_one_coordinate_is_that_of_the_oscillator() {
     fs::write(here.join("one.toml"), ONE).unwrap();
     // value, sweep, and the numbers of the row, in order
     let rows = |line: &str, numbers: &[usize]| {
-        let mut rows: Vec<(String, String, Vec<f64>)> = done(here, line)
+        let mut rows: Vec<(String, String, Vec<f64>)> = printed_in(here, line)
             .lines()
             .skip(1)
             .map(|row| {
@@ -216,7 +186,7 @@ fn starts_of_diagrams() {
         "diagram --machine bouncing-ball --set e=0.5 --vary Gamma --over 1.1:1.75:3 --direction up --phase 0.51 --q 1 --qdot 4.1",
         "diagram --machine impact-pair --vary a --over 0.1:2:4 --direction scatter --starts 3 --transient 50",
     ] {
-        let told = done(folder.path(), &format!("{line} --json"));
+        let told = printed_in(folder.path(), &format!("{line} --json"));
         let told: Value = serde_json::from_str(&told).unwrap();
         assert!(told["sweeps"][0]["points"].as_u64() > Some(0), "{told}");
     }
@@ -228,10 +198,10 @@ fn a_basin_of_one_coordinate_is_that_of_the_oscillator() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     let plane = [("x", "-3:0.7:9"), ("v", "-2:2:7")];
-    done(here, &format!("basin {} --x {} --v {} --csv osc.csv", crate::S, plane[0].1, plane[1].1));
+    printed_in(here, &format!("basin {} --x {} --v {} --csv osc.csv", crate::S, plane[0].1, plane[1].1));
     fs::write(here.join("one.toml"), ONE).unwrap();
     let line = format!("basin --machine one.toml --axis q.x={} --axis qdot.x={}", plane[0].1, plane[1].1);
-    done(here, &format!("{line} --store one.zarr --csv one.csv"));
+    printed_in(here, &format!("{line} --store one.zarr --csv one.csv"));
     let read = |name: &str| fs::read_to_string(here.join(name)).unwrap();
     let rows = |text: String| text.lines().skip(1).map(str::to_owned).collect::<Vec<_>>();
     assert_eq!(rows(read("one.csv")), rows(read("osc.csv")));

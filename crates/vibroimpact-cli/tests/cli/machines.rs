@@ -1,23 +1,10 @@
 //! Machines: the catalogue, files, changed numbers, schematics, refusals.
 
-use super::{json, vibro};
+use crate::{json, printed, refused};
 use std::collections::BTreeSet;
 use std::fs;
-use vibroimpact_report::{Shown, Units, answer};
+use vibroimpact_study::Plan;
 use vibroimpact_study::machine::{CATALOGUE, MachineSource, no_files};
-use vibroimpact_study::{Control, Plan, Task};
-
-fn printed(line: &str) -> String {
-    let output = vibro(line).output().expect("vibro runs");
-    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).expect("text")
-}
-
-fn refused(line: &str) -> String {
-    let output = vibro(line).output().expect("vibro runs");
-    assert_eq!((output.status.code(), output.stdout.is_empty()), (Some(2), true), "{line}");
-    String::from_utf8(output.stderr).expect("text")
-}
 
 #[test]
 fn the_catalogue_is_listed_and_shown() {
@@ -213,25 +200,6 @@ fn waveforms() {
     assert!(fs::read(file("short.png")).unwrap().starts_with(b"\x89PNG"));
     assert!(refused("simulate --machine soft-stop --periods 1 --csv - --step 0").contains("step = 0 lies outside"));
     assert!(refused("simulate --machine soft-stop --periods 1 --csv - --step 1e-9").contains("at most"));
-}
-
-#[test]
-fn the_command_answers_as_the_library_does() {
-    let source = MachineSource::from_text(&printed("machine show impact-damper --written"), no_files).unwrap();
-    let plan = Plan::new(source, Task::Simulate { start: None, impacts: Some(30), periods: None });
-    let answer = answer(&plan, Units::default(), &Control::default()).unwrap().named("impact-damper");
-    let line = "simulate --machine impact-damper --impacts 30";
-    assert_eq!(printed(&format!("{line} --json")), answer.json() + "\n");
-    let mut table = Vec::new();
-    answer.table(&Shown::default()).unwrap().unwrap().write(&mut table).unwrap();
-    assert_eq!(printed(&format!("{line} --csv -")).as_bytes(), table);
-    let folder = tempfile::tempdir().unwrap();
-    let svg = folder.path().join("a.svg");
-    printed(&format!("{line} --plot {}", svg.display()));
-    assert_eq!(
-        fs::read_to_string(svg).unwrap(),
-        answer.figure(&Shown::default(), &Control::default()).unwrap().unwrap().to_svg()
-    );
 }
 
 fn close(value: &serde_json::Value, expected: f64) -> bool {

@@ -21,7 +21,6 @@ mod overlays;
 mod planes;
 mod questions;
 mod refusals;
-mod same_as_library;
 mod stability;
 mod states;
 mod studies;
@@ -31,6 +30,8 @@ mod vocabulary;
 
 use assert_cmd::Command;
 use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::Path;
 
 /// A run of `vibro` with a time limit.
 fn vibro(line: &str) -> Command {
@@ -39,12 +40,57 @@ fn vibro(line: &str) -> Command {
     command
 }
 
+/// The exit code of `vibro` in a folder, what it prints, and what it complains of.
+fn ran(folder: impl AsRef<Path>, line: &str) -> (Option<i32>, String, String) {
+    let output = vibro(line).current_dir(folder).output().expect("vibro runs");
+    let text = |bytes| String::from_utf8(bytes).expect("text");
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+/// What a command that succeeds prints in a folder.
+fn printed_in(folder: impl AsRef<Path>, line: &str) -> String {
+    let (code, printed, complaint) = ran(folder, line);
+    assert_eq!(code, Some(0), "{line}: {complaint}");
+    printed
+}
+
+fn printed(line: &str) -> String {
+    printed_in(".", line)
+}
+
+/// The complaint of a command that refuses in a folder.
+fn refused_in(folder: impl AsRef<Path>, line: &str) -> String {
+    let (code, printed, complaint) = ran(folder, line);
+    assert_eq!((code, printed.as_str()), (Some(2), ""), "{line}: {complaint}");
+    complaint
+}
+
+fn refused(line: &str) -> String {
+    refused_in(".", line)
+}
+
 /// The JSON object a command prints.
 fn json(line: &str) -> Value {
-    let output = vibro(line).arg("--json").output().expect("vibro runs");
-    let complaint = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{line}: {complaint}");
-    serde_json::from_slice(&output.stdout).expect("stdout is one JSON object")
+    serde_json::from_str(&printed(&format!("{line} --json"))).expect("stdout is one JSON object")
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+/// All files in a folder and below, by their names from there.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    for entry in std::fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        let name = path.strip_prefix(folder).expect("it is inside").display().to_string();
+        if path.is_dir() {
+            found.extend(files(&path).into_iter().map(|(inner, bytes)| (format!("{name}/{inner}"), bytes)));
+        } else {
+            found.insert(name, std::fs::read(&path).expect("a file"));
+        }
+    }
+    found
 }
 
 /// S of the 1971 paper, where two motions coexist.

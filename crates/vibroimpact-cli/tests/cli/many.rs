@@ -1,23 +1,9 @@
 //! `vibro settle-many`: points that are listed in a table or drawn from ranges, with and without a store.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use crate::vibro;
+use crate::{printed, printed_in, ran, refused, vibro};
 use serde_json::{Value, json};
 use std::fs;
-use std::path::Path;
-
-/// What a successful command prints.
-fn told(folder: &Path, line: &str) -> String {
-    let output = vibro(line).current_dir(folder).output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
-}
-
-/// Exit code and stderr.
-fn said(folder: &Path, line: &str) -> (Option<i32>, String) {
-    let output = vibro(line).current_dir(folder).output().unwrap();
-    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
-}
 
 const HYPERCUBE: &str =
     "settle-many --sample lhs:120 --seed 3 --inverse-beta 0.6:2 --gap 0:2 --restitution 0.3:0.8 --v 0.5";
@@ -31,9 +17,9 @@ fn rows(text: &str) -> Vec<Vec<String>> {
 fn a_sample_is_that_of_its_plan_in_memory_in_a_store_and_as_a_table() {
     let (folder, task) = (tempfile::tempdir().unwrap(), "--fields impact-speed-max --transient");
     let here = folder.path();
-    let memory = told(here, &format!("{HYPERCUBE} {task} --csv -"));
+    let memory = printed_in(here, &format!("{HYPERCUBE} {task} --csv -"));
     assert_eq!(memory.lines().count(), 121);
-    let store = told(here, &format!("{HYPERCUBE} {task} --store cube.zarr --tile 25 --csv -"));
+    let store = printed_in(here, &format!("{HYPERCUBE} {task} --store cube.zarr --tile 25 --csv -"));
     assert_eq!(memory, store);
     // the same plan as a file
     let of = |vary: &str, from: f64, to: f64| json!({ "vary": vary, "from": from, "to": to });
@@ -42,12 +28,12 @@ fn a_sample_is_that_of_its_plan_in_memory_in_a_store_and_as_a_table() {
     let basin = json!({ "points": { "drawn": drawn }, "start": { "v": 0.5 }, "fields": ["impact_speed_max"], "transient": true });
     let plan = json!({ "version": 1, "tile": 25, "system": { "restitution": 0.3 }, "task": { "basin": basin } });
     fs::write(here.join("plan.json"), plan.to_string()).unwrap();
-    let ran: Value = serde_json::from_str(&told(here, "run plan.json --store cube.zarr --json")).unwrap();
+    let ran: Value = serde_json::from_str(&printed_in(here, "run plan.json --store cube.zarr --json")).unwrap();
     assert_eq!((&ran["computed"], &ran["found"]), (&json!(0), &json!(5)));
     // the values of the sample as a table
     let columns: Vec<String> = rows(&memory).iter().map(|row| row[..3].join(",")).collect();
     fs::write(here.join("points.csv"), columns.join("\n")).unwrap();
-    let listed = told(here, &format!("settle-many --points points.csv --v 0.5 {task} --csv -"));
+    let listed = printed_in(here, &format!("settle-many --points points.csv --v 0.5 {task} --csv -"));
     assert_eq!(listed, memory);
     // and from stdin, with the names of flags
     let table = columns.join("\n").replace("inverse_beta", "inverse-beta");
@@ -63,7 +49,7 @@ fn a_sample_is_resumed_and_divided() {
     let line = format!("{HYPERCUBE} --tile 10 --store cube.zarr");
     let mut runs = 0;
     loop {
-        let (code, complaint) = said(here, &format!("--threads 1 {line} --budget 0.001s"));
+        let (code, _, complaint) = ran(here, &format!("--threads 1 {line} --budget 0.001s"));
         runs += 1;
         match code {
             Some(0) => break,
@@ -72,10 +58,15 @@ fn a_sample_is_resumed_and_divided() {
         }
     }
     assert_eq!(runs, 12);
-    assert!(told(here, &format!("{HYPERCUBE} --csv -")) == told(here, &format!("{line} --csv -")));
+    assert!(printed_in(here, &format!("{HYPERCUBE} --csv -")) == printed_in(here, &format!("{line} --csv -")));
     // an export has all fields
-    assert!(told(here, "export cube.zarr --csv -").lines().next().is_some_and(|head| head.contains("multiplier_1_re")));
-    assert!(told(here, "verify cube.zarr --sample 3").contains("12"));
+    assert!(
+        printed_in(here, "export cube.zarr --csv -")
+            .lines()
+            .next()
+            .is_some_and(|head| head.contains("multiplier_1_re"))
+    );
+    assert!(printed_in(here, "verify cube.zarr --sample 3").contains("12"));
 }
 
 /// One start is that of `settle`, and a body in SI units has the same motions as its oscillator.
@@ -85,17 +76,18 @@ fn the_same_motions_as_settle_and_in_other_units() {
     let here = folder.path();
     fs::write(here.join("starts.csv"), "x,v\n-1,0.5\n0.25,-2\n0.75,0\n").unwrap();
     let system = "--inverse-beta 1.3 --gap 0.75 --restitution 0.5";
-    let table = told(here, &format!("settle-many --points starts.csv {system} --phase 1 --csv -"));
+    let table = printed_in(here, &format!("settle-many --points starts.csv {system} --phase 1 --csv -"));
     for row in rows(&table).iter().skip(1) {
         let settled = format!("settle {system} --x={} --v={} --phase 1 --json", row[0], row[1]);
-        let settled: Value = serde_json::from_str(&told(here, &settled)).unwrap();
+        let settled: Value = serde_json::from_str(&printed_in(here, &settled)).unwrap();
         assert_eq!(settled["motion"]["label"], row[2], "{row:?}");
     }
     // F/k = 5 mm, omega_n = 20 /s
     let machine = "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --frequency-hz 2.5 --restitution 0.6";
     let beta = 2.5 * std::f64::consts::TAU / 20.0;
-    let metres = told(here, &format!("settle-many --sample sobol:32 {machine} --gap-m 0.001:0.006 --v 0.02 --csv -"));
-    let plain = told(
+    let metres =
+        printed_in(here, &format!("settle-many --sample sobol:32 {machine} --gap-m 0.001:0.006 --v 0.02 --csv -"));
+    let plain = printed_in(
         here,
         &format!("settle-many --sample sobol:32 --beta {beta} --gap 0.2:1.2 --restitution 0.6 --v 0.2 --csv -"),
     );
@@ -103,7 +95,7 @@ fn the_same_motions_as_settle_and_in_other_units() {
     assert_eq!(labels(&metres), labels(&plain));
     assert!(metres.starts_with("sample,gap_m,label"), "{metres}");
     fs::write(here.join("gaps.csv"), "gap_m,v\n0.001,0.02\n0.004,0.02\n").unwrap();
-    let listed = told(here, &format!("settle-many --points gaps.csv {machine} --csv -"));
+    let listed = printed_in(here, &format!("settle-many --points gaps.csv {machine} --csv -"));
     assert!(rows(&listed)[2][..2] == ["0.004", "0.02"], "{listed}");
 }
 
@@ -111,13 +103,15 @@ fn the_same_motions_as_settle_and_in_other_units() {
 fn summaries_and_refusals() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    let text = told(here, "settle-many --sample sobol:64 --beta 1 --gap 1 --restitution 0.5 --v -2:2");
+    let text = printed_in(here, "settle-many --sample sobol:64 --beta 1 --gap 1 --restitution 0.5 --v -2:2");
     assert!(text.contains("64 points") && text.contains("share of starts"), "{text}");
-    let answer: Value =
-        serde_json::from_str(&told(here, "settle-many --sample sobol:8 --beta 1 --gap 0.5:1 --restitution 0.5 --json"))
-            .unwrap();
+    let answer: Value = serde_json::from_str(&printed_in(
+        here,
+        "settle-many --sample sobol:8 --beta 1 --gap 0.5:1 --restitution 0.5 --json",
+    ))
+    .unwrap();
     let points = answer["points"].as_array().expect("a list");
-    let table = told(here, "settle-many --sample sobol:8 --beta 1 --gap 0.5:1 --restitution 0.5 --csv -");
+    let table = printed_in(here, "settle-many --sample sobol:8 --beta 1 --gap 0.5:1 --restitution 0.5 --csv -");
     let row = |point: &Value| format!("{},{}", point["gap"], point["motions"][0]["label"].as_str().unwrap());
     let listed: Vec<String> = rows(&table).iter().skip(1).map(|row| row.join(",")).collect();
     assert!(points.len() == 8 && listed == points.iter().map(row).collect::<Vec<_>>(), "{answer} {table}");
@@ -145,7 +139,7 @@ fn summaries_and_refusals() {
         ("settle-many --points gaps.csv --restitution 0.5", "the frequency is given nowhere"),
         ("settle-many --sample lhs:9 --beta 1 --gap 0:1 --restitution 0.5 --tile 3", "--store"),
     ] {
-        let (code, complaint) = said(here, line);
+        let (code, _, complaint) = ran(here, line);
         assert_eq!(code, Some(2), "{line}: {complaint}");
         assert!(complaint.contains(sentence), "{line}: {complaint}");
     }
@@ -158,7 +152,6 @@ fn points_of_a_machine() {
     let file = folder.path().join("points.csv");
     fs::write(&file, "q.head,b\n0,0.4\n0.2,0.6\n7,0.3\n").unwrap();
     let machine = "settle-many --machine two-mass-hammer";
-    let printed = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
     let table = printed(&format!("{machine} --points {} --csv - --fields power", file.display()));
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(rows[0], ["sample", "q.head", "b", "label", "power"]);
@@ -181,9 +174,8 @@ fn points_of_a_machine() {
         ("--sample lhs:6 --over q.nix=1:2", "q.nix"),
         ("--sample lhs:6 --over b=1:2 --transient", "for points of oscillators"),
     ] {
-        let output = vibro(&format!("{machine} {flags}")).output().unwrap();
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert!(output.status.code() == Some(2) && said.contains(sentence), "{flags}: {said}");
+        let said = refused(&format!("{machine} {flags}"));
+        assert!(said.contains(sentence), "{flags}: {said}");
     }
 }
 
@@ -199,9 +191,9 @@ fn labels_over_the_points() {
     .into_iter()
     .enumerate()
     {
-        told(here, &format!("settle-many {line} --plot {k}.svg"));
-        told(here, &format!("settle-many {line} --store {k}.zarr"));
-        told(here, &format!("plot {k}.zarr stored-{k}.svg"));
+        printed_in(here, &format!("settle-many {line} --plot {k}.svg"));
+        printed_in(here, &format!("settle-many {line} --store {k}.zarr"));
+        printed_in(here, &format!("plot {k}.zarr stored-{k}.svg"));
         let drawn = fs::read_to_string(here.join(format!("{k}.svg"))).unwrap();
         assert!(drawn.contains(across) && drawn.contains(label), "{drawn}");
         assert_eq!(drawn, fs::read_to_string(here.join(format!("stored-{k}.svg"))).unwrap(), "{line}");

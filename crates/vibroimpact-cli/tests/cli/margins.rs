@@ -1,22 +1,12 @@
 //! Tests of `vibro margins`: distances, boxes, units and refusals.
 
-use crate::{json, vibro};
+use crate::{json, number, printed, refused};
 use serde_json::Value;
 
 /// Below the flip of 1/1 at the gap 1.829.
 const ONE: &str = "margins --inverse-beta 1.11 --gap 1.5 --restitution 0.5";
 const MACHINE: &str = "--mass-kg 0.8 --stiffness-n-per-m 12000 --force-n 30 --damping-ratio 0.02 --restitution 0.65 \
                        --frequency-hz 20 --gap-m 0.0015";
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().expect("a number")
-}
-
-fn said(line: &str) -> String {
-    let output = vibro(line).output().expect("vibro runs");
-    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).expect("text")
-}
 
 /// The object of a parameter.
 fn of<'a>(answer: &'a Value, name: &str) -> &'a Value {
@@ -45,19 +35,19 @@ fn the_distance_is_that_of_the_branch() {
 
 #[test]
 fn text_and_table() {
-    let text = said(ONE);
+    let text = printed(ONE);
     for words in ["1/1: one impact every forcing period, stable", "flip", "none up to 0.1", "by trying", "not proved"] {
         assert!(text.contains(words), "{words}: {text}");
     }
-    let table = said(&format!("{ONE} --csv -"));
+    let table = printed(&format!("{ONE} --csv -"));
     let rows: Vec<&str> = table.lines().collect();
     assert_eq!(rows[0], "parameter,value,direction,limit,at,distance,relative,event,before,after");
     assert_eq!(rows.len(), 9);
     assert!(rows.iter().all(|row| row.split(',').count() == 10), "{table}");
     assert!(rows.iter().any(|row| row.starts_with("gap,1.5,up,3,1.829006189683")), "{table}");
-    let chaos = said("margins --inverse-beta 1.11 --gap 3 --restitution 0.5");
+    let chaos = printed("margins --inverse-beta 1.11 --gap 3 --restitution 0.5");
     assert!(chaos.contains("chaotic") && chaos.contains("no margins"), "{chaos}");
-    let unstable = said("margins --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/1");
+    let unstable = printed("margins --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/1");
     assert!(unstable.contains("no box: the motion is unstable"), "{unstable}");
 }
 
@@ -108,12 +98,10 @@ fn what_is_refused() {
         ("--vary beta,inverse-beta", "beta and inverse_beta are both to vary"),
         ("--lines 100001", "lines = 100001 lies outside"),
     ] {
-        let output = vibro(&format!("{ONE} {more}")).output().expect("vibro runs");
-        let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(output.status.code() == Some(2) && complaint.contains(sentence), "{more}: {complaint}");
+        let complaint = refused(&format!("{ONE} {more}"));
+        assert!(complaint.contains(sentence), "{more}: {complaint}");
     }
-    let output = vibro(&format!("margins {MACHINE} --vary gap")).output().expect("vibro runs");
-    let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
+    let complaint = refused(&format!("margins {MACHINE} --vary gap"));
     assert!(complaint.contains("gap is nondimensional") && complaint.contains("gap-m"), "{complaint}");
 }
 
@@ -130,14 +118,14 @@ fn impacts_on_each_of_two_stops() {
     assert_eq!(counts, (&on("upper").into(), &on("lower").into()));
     let told = format!("({} upper, {} lower)", on("upper"), on("lower"));
     let label = motion["label"].as_str().expect("a label");
-    assert!(said(&format!("settle {both}")).contains(&format!("{label} {told}: ")));
-    assert!(said(&format!("orbit {both} --label {label}")).contains(&format!("{label} {told}: ")));
+    assert!(printed(&format!("settle {both}")).contains(&format!("{label} {told}: ")));
+    assert!(printed(&format!("orbit {both} --label {label}")).contains(&format!("{label} {told}: ")));
     for command in ["attractors --starts 20", "basin --x 0:0.4:4 --v 0:1:4"] {
-        let text = said(&format!("{command} {both}"));
+        let text = printed(&format!("{command} {both}"));
         assert!(text.contains(" upper, ") && text.contains(" lower)"), "{text}");
     }
     let map = both.replace("--gap 0.5", "--gap 0.5:0.6:2");
-    assert!(said(&format!("map {map} --starts 2")).contains(" lower)"));
+    assert!(printed(&format!("map {map} --starts 2")).contains(" lower)"));
     // with one stop nothing is added
     let one = json("settle --beta 0.8 --gap 0.5 --restitution 0.6 --damping 0.02");
     assert_eq!(one["motion"]["counts"].as_object().unwrap().len(), 1);

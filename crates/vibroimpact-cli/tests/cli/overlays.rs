@@ -1,7 +1,7 @@
 //! Tests of `--layers`, `--mark` and `--line`: the figure that the page of the explorer exports, with what lies over the map,
 //! is that of the command which the page shows.
 
-use crate::vibro;
+use crate::{printed, refused_in, vibro};
 use axum::body::{Body, to_bytes};
 use axum::http::{Request, header};
 use serde_json::Value;
@@ -130,13 +130,10 @@ fn what_is_refused() {
             "--layers, --mark and --line are for maps without --machine",
         ),
     ] {
-        let output = vibro(&line).current_dir(folder.path()).output().expect("vibro runs");
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{line}: {said}");
+        let said = refused_in(folder.path(), &line);
         assert!(said.contains(sentence), "{line}: {said}");
     }
-    let help = vibro("help figure").output().expect("vibro runs");
-    let help = String::from_utf8_lossy(&help.stdout).into_owned();
+    let help = printed("help figure");
     for word in
         ["--layers <LAYER,...>", "--mark <X,Y>", "--line <X0,Y0:X1,Y1>", "The amplitude of the motion without stops"]
     {

@@ -1,14 +1,10 @@
 //! Tests of `vibro curve` and `vibro region` in a plane of two parameters.
 
-use crate::{json, vibro};
+use crate::{json, number, printed, refused, vibro};
 use serde_json::Value;
 
 const FOLD: &str = "curve --inverse-beta 0.7 --gap 2 --restitution 0.5 --label 1/1 --kind fold --vary gap=0:5 \
                     --and inverse-beta=0.45:0.9";
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().expect("a number")
-}
 
 /// Curves of folds end on the grazing curve at 1/beta = 1/2, where the gap is the amplitude of the motion without
 /// impacts, 1/3.
@@ -45,12 +41,11 @@ fn one_of_several_events() {
 
 #[test]
 fn text_and_tables() {
-    let said = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
-    let text = said(FOLD);
+    let text = printed(FOLD);
     for sentence in ["fold of 1/1 (orbit 2 of 2, stable there)", "found at gap 3.14214107148", "resonant grazing"] {
         assert!(text.contains(sentence), "{sentence}: {text}");
     }
-    let table = said(&format!("{FOLD} --csv -"));
+    let table = printed(&format!("{FOLD} --csv -"));
     assert!(table.starts_with("gap,inverse_beta,label,admissible,event,multiplier_1_re"), "{table}");
     assert!(table.lines().any(|row| row.contains(",resonant grazing,")));
     let columns = table.lines().next().unwrap().split(',').count();
@@ -96,16 +91,15 @@ fn the_regions_of_one_impact_a_period() {
 
 #[test]
 fn a_region_as_text_and_table_for_any_threads() {
-    let said = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
-    let text = said(REGION);
+    let text = printed(REGION);
     for sentence in ["1/1 over inverse beta from 1.05 to 1.2, gap from 1 to 2.5", "existence\n", "stability\n", "flip"]
     {
         assert!(text.contains(sentence), "{sentence}: {text}");
     }
-    let table = said(&format!("{REGION} --csv - --threads 1"));
+    let table = printed(&format!("{REGION} --csv - --threads 1"));
     assert!(table.starts_with("region,polygon,hole,sheet,inverse_beta,gap,bound\nexistence,1,false,below,"), "{table}");
-    assert_eq!(said(&format!("{REGION} --csv - --threads 2")), table);
-    let other = said("region --label 1/2 --inverse-beta 1.11 --gap 2:3 --restitution 0.4:0.6 --grid 3 --csv -");
+    assert_eq!(printed(&format!("{REGION} --csv - --threads 2")), table);
+    let other = printed("region --label 1/2 --inverse-beta 1.11 --gap 2:3 --restitution 0.4:0.6 --grid 3 --csv -");
     assert!(other.starts_with("region,polygon,hole,sheet,gap,restitution,bound\n") && other.lines().count() > 10);
 }
 
@@ -125,15 +119,13 @@ fn a_region_of_a_machine() {
             assert_eq!(inside(&own, at), inside(&plain, at), "{kind} {at:?}");
         }
     }
-    let said = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
-    let text = said(line);
+    let text = printed(line);
     assert!(text.starts_with("1/1 over inverse_beta from 1.05 to 1.2, delta from 1 to 2.5\n"), "{text}");
-    let table = said(&format!("{line} --csv -"));
+    let table = printed(&format!("{line} --csv -"));
     assert!(
         table.starts_with("region,polygon,hole,sheet,inverse_beta,delta,bound\nexistence,1,false,below,"),
         "{table}"
     );
-    let refused = |line: &str| String::from_utf8(vibro(line).output().unwrap().stderr).unwrap();
     let one = refused("region --machine fukaya-irie-1971 --label 1/1 --axis delta=1:2.5");
     assert!(one.contains("--axis PATH=A:B is given 1 times"), "{one}");
 }
@@ -168,7 +160,7 @@ fn a_region_in_physical_units() {
         assert!((number(&a[0]) - number(&b[0])).abs() < 1e-12 && (number(&a[1]) - 0.02 * number(&b[1])).abs() < 1e-13);
     }
     let text = format!("region --label 1/1 {machine} --units si --inverse-beta 1.05:1.2 --gap 0.02:0.05 --grid 4");
-    let text = String::from_utf8(vibro(&text).output().unwrap().stdout).unwrap();
+    let text = printed(&text);
     assert!(text.starts_with("1/1 over inverse beta from 1.05 to 1.2, gap (m) from 0.02 to 0.05\n"), "{text}");
 }
 
@@ -176,7 +168,6 @@ fn a_region_in_physical_units() {
 /// stable.
 #[test]
 fn f06_the_region_of_the_motion_without_impacts() {
-    let said = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
     let line = "region --label 0 --damping 0.05 --beta 1.5:3 --gap 0.5:2 --restitution 0.5";
     let answer = json(line);
     for (beta, gap) in [(1.6, 0.6), (1.6, 0.7), (2.0, 1.0), (2.9, 0.51)] {
@@ -187,13 +178,13 @@ fn f06_the_region_of_the_motion_without_impacts() {
             assert_eq!(inside(&answer[kind]["polygons"], (beta, gap)), expected, "{kind} at {beta}, {gap}");
         }
     }
-    let text = said(line);
+    let text = printed(line);
     assert!(text.contains("touch") && !text.contains("none"), "{text}");
     // the same in other planes, and without loss of energy
-    let undamped = said(&line.replace("--damping 0.05 ", ""));
+    let undamped = printed(&line.replace("--damping 0.05 ", ""));
     assert!(undamped.contains("stability: none, the motion is neutral where"), "{undamped}");
     assert!(undamped.contains("existence\n"), "{undamped}");
-    let never = said("region --label 0 --damping 0:0.1 --beta 1:1.1 --gap 0.5 --restitution 0.5");
+    let never = printed("region --label 0 --damping 0:0.1 --beta 1:1.1 --gap 0.5 --restitution 0.5");
     assert!(never.contains("existence: none, the amplitude of the motion without impacts exceeds a gap"), "{never}");
     let two = json(
         "region --label 0 --damping 0.1 --second-gap 0.2:2 --restitution 0:1 --second-restitution 0.5 --beta 2 --gap 1",
@@ -209,9 +200,7 @@ fn f06b_what_begins_with_no_impact_without_damping() {
         "branch --label 0 --beta 2 --gap 1 --restitution 0.5 --vary gap --to 0.1",
         "curve --label 0 --beta 2 --gap 1 --restitution 0.5 --kind grazing --vary gap=0:2 --and beta=1.5:3",
     ] {
-        let output = vibro(line).output().unwrap();
-        let message = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2));
+        let message = refused(line);
         assert!(message.contains("without damping the steady motion without impacts is one of many"), "{message}");
         assert!(message.contains("hint: a damping above 0"), "{message}");
     }

@@ -1,6 +1,6 @@
 //! Stability in three words, rests that name their stops, and how far chaos was seen.
 
-use super::{json, vibro};
+use crate::{json, printed};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
@@ -105,12 +105,6 @@ fn file(machine: &str) -> (tempfile::TempDir, PathBuf) {
     let path = folder.path().join("machine.toml");
     fs::write(&path, machine).expect("it can be written");
     (folder, path)
-}
-
-fn printed(line: &str) -> String {
-    let output = vibro(line).output().expect("vibro runs");
-    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).expect("text")
 }
 
 /// The cells of a column of a table.

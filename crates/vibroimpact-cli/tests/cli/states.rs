@@ -1,14 +1,8 @@
 //! Whole states of machines: motions go on from what a command printed; and what is refused of machines.
 
-use super::{json, vibro};
+use crate::{json, printed, refused, vibro};
 use serde_json::Value;
 use std::fs;
-
-fn refused(line: &str) -> String {
-    let output = vibro(line).output().expect("vibro runs");
-    assert_eq!((output.status.code(), output.stdout.is_empty()), (Some(2), true), "{line}");
-    String::from_utf8(output.stderr).expect("text")
-}
 
 /// A mass, 2 kg so that coordinates are rounded, with a damped pad whose surface recovers slowly, and friction.
 const PADS: &str = r#"
@@ -87,7 +81,7 @@ fn a14_tables_have_states() {
     let machine = folder.path().join("pads.toml");
     fs::write(&machine, PADS).unwrap();
     let line = format!("simulate --machine {} --impacts 20 --csv -", machine.display());
-    let table = String::from_utf8(vibro(&line).output().unwrap().stdout).unwrap();
+    let table = printed(&line);
     assert!(
         table.lines().next().unwrap().ends_with("force.guide,surface.pad,state.pad,state.wall,state.guide"),
         "{table}"
@@ -112,7 +106,7 @@ fn a13_a_search_limit_is_an_end() {
         text.contains("ran out of steps") && complaint.contains("hint: numbers that lie many orders"),
         "{complaint}"
     );
-    let settled = String::from_utf8(vibro(&line("settle")).output().unwrap().stdout).unwrap();
+    let settled = printed(&line("settle"));
     // 10 000 radians of the mode with stiffness 1e14, beside which a stiffness of 1 is none
     assert!(settled.contains("no event within a time of 0.001 after the last one"), "{settled}");
 }

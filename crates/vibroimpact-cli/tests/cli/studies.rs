@@ -1,8 +1,7 @@
 //! Tests of studies from outside: killed, resumed, damaged, run twice at the same time, and refused.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use crate::{json, vibro};
-use std::collections::BTreeMap;
+use crate::{files, json, printed_in, ran, vibro};
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -40,30 +39,13 @@ fn begin(folder: &Path, line: &str) -> Child {
 
 /// Exit code and stderr of `vibro` in a folder.
 fn said(folder: &Path, line: &str) -> (Option<i32>, String) {
-    let output = vibro(line).current_dir(folder).output().unwrap();
-    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    let (code, _, complaint) = ran(folder, line);
+    (code, complaint)
 }
 
 fn done(folder: &Path, line: &str) {
     let (code, complaint) = said(folder, line);
     assert_eq!(code, Some(0), "{line}: {complaint}");
-}
-
-/// All files below a folder.
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    let mut open = vec![folder.to_owned()];
-    while let Some(next) = open.pop() {
-        for entry in fs::read_dir(next).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                open.push(path);
-            } else {
-                found.insert(path.strip_prefix(folder).unwrap().display().to_string(), fs::read(&path).unwrap());
-            }
-        }
-    }
-    found
 }
 
 /// A study that is killed at twenty moments and resumed is equal to that of a run without interruption, byte for byte; with
@@ -257,8 +239,7 @@ fn a_budget_stops_a_run_and_the_status_says_how_far_it_is() {
     let regions = last["cost"]["regions"].as_array().unwrap();
     let points: u64 = regions.iter().map(|region| region["points"].as_u64().unwrap()).sum();
     assert_eq!((regions.len(), points), (16, 256));
-    let output = vibro("status s.zarr --watch").current_dir(folder.path()).output().unwrap();
-    let line = String::from_utf8(output.stdout).unwrap();
+    let line = printed_in(folder.path(), "status s.zarr --watch");
     assert_eq!(line, "100.0 %  16 of 16 tiles, 256 of 256 points, complete\n");
     for (line, hint) in [
         ("run study.toml --budget 8", "hint: 8h, 8m or 8s"),
@@ -304,8 +285,7 @@ fn an_estimate_before_anything_starts() {
         (&all["points_sampled"], &all["processor_seconds_interval"][0]),
         (&256.into(), &all["processor_seconds"])
     );
-    let output = vibro("estimate study.toml --sample 4 --threads 1").current_dir(folder.path()).output().unwrap();
-    let text = String::from_utf8(output.stdout).unwrap();
+    let text = printed_in(folder.path(), "estimate study.toml --sample 4 --threads 1");
     assert!(
         text.contains("256 points in 16 tiles\nprocessor time: about ") && text.contains("from 4 points"),
         "{text}"
@@ -385,9 +365,8 @@ fn damage_is_found_by_verify_and_mended_by_resume() {
     flipped[bytes.len() / 2] ^= 4;
     for damaged in [flipped.as_slice(), &bytes[..bytes.len() - 1], b""] {
         fs::write(&chunk, damaged).unwrap();
-        let output = vibro("verify study.zarr").current_dir(folder.path()).output().unwrap();
-        let text = String::from_utf8_lossy(&output.stdout);
-        assert_eq!(output.status.code(), Some(1), "{text}");
+        let (code, text, _) = ran(folder.path(), "verify study.zarr");
+        assert_eq!(code, Some(1), "{text}");
         assert!(text.contains("tile 5: a chunk is missing, cut short or has a wrong check sum"), "{text}");
         let (code, note) = said(folder.path(), "resume study.zarr");
         assert!(code == Some(0) && note.contains("1 of 9 tiles computed, 1 of them because of damage"), "{note}");

@@ -1,17 +1,9 @@
 //! Tests of summaries as text: what is told apart, grouped and named.
 
-use crate::{json, vibro};
-use tempfile::TempDir;
+use crate::{json, printed_in};
 
 const MACHINE: &str = "--mass-kg 0.8 --stiffness-n-per-m 12000 --force-n 30 --damping-ratio 0.02 --restitution 0.65";
 const CHAOTIC: &str = "--inverse-beta 1.11 --gap 3 --restitution 0.5";
-
-/// What a command prints in a folder.
-fn text(line: &str, folder: &TempDir) -> String {
-    let output = vibro(line).current_dir(folder).output().expect("vibro runs");
-    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).expect("text")
-}
 
 /// Sum of the shares of a table of labels, whose last column is a share in per cent.
 fn shares(rows: &[&str]) -> f64 {
@@ -30,7 +22,7 @@ fn many_labels_are_the_largest_dozen_and_the_others() {
     assert!(all.len() > 16, "{}", all.len());
     let undecided = all.iter().filter(|label| label["label"] == "undecided").count();
     for line in [line.to_owned(), format!("{line} --store map.zarr")] {
-        let said = text(&line, &folder);
+        let said = printed_in(&folder, &line);
         let rows: Vec<&str> = said.lines().filter(|row| row.ends_with(" %")).collect();
         assert!((13..=14).contains(&rows.len()), "{said}");
         let shown = rows.len() - 1;
@@ -40,7 +32,7 @@ fn many_labels_are_the_largest_dozen_and_the_others() {
         assert!((shares(&rows) - 100.0).abs() < 1.0, "{said}");
     }
     // a basin has a row for each motion
-    let said = text("basin --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --x -1:0.5:4 --v 0:1:4", &folder);
+    let said = printed_in(&folder, "basin --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --x -1:0.5:4 --v 0:1:4");
     assert!(!said.contains("others ("), "{said}");
 }
 
@@ -48,12 +40,12 @@ fn many_labels_are_the_largest_dozen_and_the_others() {
 #[test]
 fn axes_in_si_units_are_named() {
     let folder = tempfile::tempdir().unwrap();
-    let said = text(
-        &format!("map {MACHINE} --frequency-hz 15:25:4 --gap-m 0.001:0.002:3 --starts 2 --store si.zarr"),
+    let said = printed_in(
         &folder,
+        &format!("map {MACHINE} --frequency-hz 15:25:4 --gap-m 0.001:0.002:3 --starts 2 --store si.zarr"),
     );
     assert!(said.contains("over frequency_hz, gap_m\n12 points: 4 frequency_hz by 3 gap_m\n"), "{said}");
-    let status = text("status si.zarr", &folder);
+    let status = printed_in(&folder, "status si.zarr");
     assert!(status.lines().next().unwrap().ends_with("over frequency_hz, gap_m"), "{status}");
 }
 
@@ -62,7 +54,7 @@ fn a_typed_frequency_is_printed_as_typed() {
     let folder = tempfile::tempdir().unwrap();
     let line =
         format!("branch {MACHINE} --gap-m 0.0015 --frequency-hz 20 --label 1/1 --vary frequency-hz --to 20.3 --csv -");
-    let said = text(&line, &folder);
+    let said = printed_in(&folder, &line);
     let values: Vec<&str> = said.lines().skip(1).filter_map(|row| row.split(',').nth(1)).collect();
     assert_eq!((values[0], *values.last().unwrap()), ("20", "20.3"));
 }
@@ -73,17 +65,17 @@ fn what_is_not_settled_is_said() {
     let sweep = |gap: &str| {
         format!("diagram --inverse-beta 1.11 --restitution 0.5 --vary gap --over {gap}:{gap}:1 --direction up")
     };
-    let chaotic = text(&sweep("3"), &folder);
+    let chaotic = printed_in(&folder, &sweep("3"));
     assert!(chaotic.contains("1 motion did not repeat within the 64 impacts shown, after 500 impacts"), "{chaotic}");
-    let settled = text(&sweep("0.25"), &folder);
+    let settled = printed_in(&folder, &sweep("0.25"));
     assert!(!settled.contains("did not repeat"), "{settled}");
-    let start = text(&format!("settle {CHAOTIC} --impacts 50"), &folder);
+    let start = printed_in(&folder, &format!("settle {CHAOTIC} --impacts 50"));
     assert!(start.contains("followed for 50 impacts") && start.contains("; not settled by then\n"), "{start}");
 
-    text(&format!("attractors {CHAOTIC} --starts 4 --impacts 50 --store open.zarr"), &folder);
-    let status = text("status open.zarr", &folder);
+    printed_in(&folder, &format!("attractors {CHAOTIC} --starts 4 --impacts 50 --store open.zarr"));
+    let status = printed_in(&folder, "status open.zarr");
     assert!(status.contains("4 points with an undecided motion\n") && !status.contains("not computed"), "{status}");
-    let status: serde_json::Value = serde_json::from_str(&text("status open.zarr --json", &folder)).unwrap();
+    let status: serde_json::Value = serde_json::from_str(&printed_in(&folder, "status open.zarr --json")).unwrap();
     assert_eq!(status["points_undecided"], 4);
 }
 
@@ -92,11 +84,11 @@ fn what_is_not_settled_is_said() {
 fn points_that_were_not_computed_are_said() {
     let folder = tempfile::tempdir().unwrap();
     let grid = "basin --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --x -1:0.5:33 --v 0:1:33";
-    let said = text(&format!("{grid} --refine 8 --store basin.zarr"), &folder);
+    let said = printed_in(&folder, &format!("{grid} --refine 8 --store basin.zarr"));
     let own = said.lines().find_map(|line| line.strip_prefix("computed: ")).unwrap_or_else(|| panic!("{said}"));
     let own: u64 = own.split_whitespace().next().unwrap().parse().unwrap();
     assert!((25..33 * 33).contains(&own), "{said}");
-    let table = text("export basin.zarr --csv -", &folder);
+    let table = printed_in(&folder, "export basin.zarr --csv -");
     let marked = table.lines().filter(|row| row.ends_with(",computed")).count() as u64;
     assert_eq!(marked, own + u64::from(table.lines().next().unwrap().ends_with(",computed")));
 }

@@ -1,10 +1,8 @@
 //! Command lines of `vibro`: each must give an answer or a refusal within its time, and the same one when repeated.
 
+mod draw;
+mod folder;
 mod machines;
-mod others;
-mod parts;
-mod planes;
-mod verbs;
 
 use crate::case::Property;
 use crate::limits::{Limits, ProcessEnd, run};
@@ -60,7 +58,7 @@ impl Commands {
         }
         fs::create_dir(&folder)?;
         let files: Vec<(&str, &str)> =
-            others::FILES.into_iter().chain(machine.map(|text| (machines::FILE, text))).collect();
+            folder::FILES.into_iter().chain(machine.map(|text| (machines::FILE, text))).collect();
         for (name, text) in &files {
             fs::write(folder.join(name), text)?;
         }
@@ -81,14 +79,12 @@ impl Property for Commands {
     type Case = CommandCase;
 
     fn strategy(&self) -> BoxedStrategy<CommandCase> {
-        let line = |heavy| move |words| CommandCase { words, heavy, machine: None };
-        let of_machine = |(text, words)| CommandCase { words, heavy: false, machine: Some(text) };
+        let heavy =
+            prop::sample::select(&folder::HEAVY[..]).prop_map(|line| line.split(' ').map(str::to_owned).collect());
         prop_oneof![
-            12 => verbs::lines().prop_map(line(false)),
-            10 => planes::lines().prop_map(line(false)),
-            12 => (machines::files(), machines::lines()).prop_map(of_machine),
-            6 => others::lines().prop_map(line(false)),
-            1 => others::heavy().prop_map(line(true)),
+            40 => (draw::lines(), machines::files())
+                .prop_map(|(words, text)| CommandCase { words, heavy: false, machine: Some(text) }),
+            1 => heavy.prop_map(|words| CommandCase { words, heavy: true, machine: None }),
         ]
         .boxed()
     }
@@ -131,7 +127,7 @@ impl Property for Commands {
             return Ok(());
         }
         let has = |flag: &str| case.words.iter().any(|word| word == flag || word.starts_with(&format!("{flag}=")));
-        if has("--json") && !has("--help") {
+        if has("--json") && !has("--help") && !has("--version") {
             told(verb, &ran.stdout, has("--store") || matches!(verb, "run" | "settle-many"), !has("--rule"))?;
         }
         if ran.took < SOON {

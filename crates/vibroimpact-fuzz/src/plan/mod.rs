@@ -30,7 +30,12 @@ pub struct Written {
 impl Written {
     /// The strategy by which plans are drawn.
     pub fn strategy() -> BoxedStrategy<Self> {
-        (draw::plan(), mutate::changes(), mutate::edits(), any::<bool>())
+        Self::of(draw::plan())
+    }
+
+    /// The strategy by which these trees of values are written and mutated.
+    pub(crate) fn of(trees: BoxedStrategy<Value>) -> BoxedStrategy<Self> {
+        (trees, mutate::changes(), mutate::edits(), any::<bool>())
             .prop_map(|(plan, changes, edits, toml)| Self { plan, changes, edits, toml })
             .boxed()
     }
@@ -42,6 +47,12 @@ impl Written {
         let toml = if self.toml { toml::to_string(&tree).ok() } else { None };
         // values that TOML cannot express are written as JSON
         mutate::edited(&toml.unwrap_or_else(|| tree.to_string()), &self.edits)
+    }
+
+    /// The same as TOML, without deep nests, if it can be written as such.
+    pub(crate) fn toml(mut self) -> String {
+        self.changes.retain(|change| !matches!(change, Change::Nest(..)));
+        Self { toml: true, ..self }.text()
     }
 
     /// The same plan as JSON.

@@ -27,6 +27,7 @@ Lengths are in units of the static deflection F/k, times in units of 1/omega_n, 
 | the regions where a motion exists and where it is stable | `region` |
 | a quantity of all motions over one parameter: branches, and sweeps up and down | `response` |
 | how far a motion is from the events that end or change it | `margins` |
+| restitution, stiffness, damping and times of the contact with a spring and a damper | `contact` |
 | the border between the starts of two motions, and the saddle on it | `edge` |
 | Lyapunov exponents and the dimension of the attractor | `lyapunov` |
 | the motion after its transient at each value of a parameter | `orbit_diagram` |
@@ -44,6 +45,7 @@ from vibroimpact import _questions, dask
 from vibroimpact._attractors import Attractor, Attractors
 from vibroimpact._axis import Span, span
 from vibroimpact._branch import Branch, BranchEvent, Origin
+from vibroimpact._contact import Contact, contact
 from vibroimpact._core import QuestionError, StoppedError, StoreError, __version__
 from vibroimpact._curve import Curve, CurveEvent
 from vibroimpact._edge import Edge
@@ -106,6 +108,7 @@ __all__ = [
     "Branch",
     "BranchEvent",
     "Closings",
+    "Contact",
     "Curve",
     "CurveEvent",
     "EarlierContact",
@@ -150,6 +153,7 @@ __all__ = [
     "attractors",
     "basin",
     "branch",
+    "contact",
     "curve",
     "dask",
     "edge",

@@ -2,32 +2,12 @@
 
 use vibroimpact_study::Body;
 
-/// The numbers of a body with their names in plans, which are those of the flags too; `None` for a number in another form.
-pub(super) fn numbers_of(body: &Body) -> Vec<(&'static str, Option<f64>)> {
-    let nonzero = |value: f64| Some(value).filter(|value| value.to_bits() != 0);
-    vec![
-        ("mass_kg", body.mass_kg),
-        ("stiffness_n_per_m", body.stiffness_n_per_m),
-        ("damping_ns_per_m", body.damping_ns_per_m.and_then(nonzero)),
-        ("damping_ratio", body.damping_ratio.and_then(nonzero)),
-        ("log_decrement", body.log_decrement),
-        ("force_n", body.force_n),
-        ("frequency_hz", body.frequency_hz),
-        ("omega_rad_per_s", body.omega_rad_per_s),
-        ("gap_m", body.gap_m),
-        ("second_gap_m", body.second_gap_m),
-        ("base_displacement_m", body.base_displacement_m),
-        ("base_velocity_m_per_s", body.base_velocity_m_per_s),
-        ("base_acceleration_m_per_s2", body.base_acceleration_m_per_s2),
-        ("base_phase", nonzero(body.base_phase)),
-        ("stop_displacement_m", body.stop_displacement_m),
-        ("stop_phase", nonzero(body.stop_phase)),
-        ("unbalance_kg_m", body.unbalance_kg_m),
-        ("constant_force_n", body.constant_force_n),
-        ("gravity_m_per_s2", body.gravity_m_per_s2),
-        ("restitution", body.restitution),
-        ("second_restitution", body.second_restitution),
-    ]
+/// The numbers of a body with their names in plans, which are those of the flags too. A damper of 0 is none.
+pub(super) fn numbers_of(body: &Body) -> Vec<(String, f64)> {
+    let text = serde_json::to_value(body).unwrap_or_default();
+    let numbers = text.as_object().into_iter().flatten();
+    let numbers = numbers.filter_map(|(name, value)| Some((name.clone(), value.as_f64()?)));
+    numbers.filter(|(name, value)| !name.starts_with("damping") || value.to_bits() != 0).collect()
 }
 
 /// The units at the ends of names, longer ones before those at their ends.

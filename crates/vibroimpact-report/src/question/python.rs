@@ -1,14 +1,12 @@
 //! A plan as a call of the Python package.
 
+use super::arguments::{Argument, arguments, ends, plain};
 use super::body::{numbers_of, without_unit};
 use super::number;
+use crate::Units;
 use crate::scene::{SECTION_POINTS, View};
-use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
-use vibroimpact_study::{
-    Axis, BasinPlan, Body, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan,
-    EdgePlan, LyapunovPlan, MapPlan, MarginsPlan, Plan, Quantity, RegionPlan, ResponsePlan, StartPlan, Stretch,
-    SystemPlan, Target, Task, Values,
-};
+use serde_json::Value;
+use vibroimpact_study::{Body, Plan, SystemPlan, Task};
 
 /// A few lines of Python for a plan, whose numbers are nondimensional unless their names end in a unit; `None` for an invalid plan, and for a study of points.
 ///
@@ -22,152 +20,109 @@ pub fn python(plan: &Plan) -> Option<String> {
     {
         return None;
     }
-    let (name, call) = match &plan.task {
-        Task::Simulate { start, impacts, periods } => {
-            let call = Call::new("simulate").start(&start.unwrap_or_default());
-            ("motion", call.given("impacts", *impacts).given("periods", periods.map(number)))
-        }
-        Task::Settle { start, impacts } => {
-            ("motion", Call::new("settle").start(&start.unwrap_or_default()).given("impacts", *impacts))
-        }
-        Task::Attractors { starts, seed, impacts } => {
-            let call = Call::new("attractors").named("starts", starts).unless("seed", *seed, 1);
-            ("motions", call.given("impacts", *impacts))
-        }
-        Task::Orbit { label } => ("orbits", Call::new("orbits").then(text(label))),
-        Task::Basin(task) => ("basin", basin(&task.typed().ok()?)),
-        Task::Map(task) => {
-            let task: MapPlan = task.typed().ok()?;
-            let call = Call::new("region_map").then(axes(&task.axes)).named("starts", task.starts);
-            let call = call.unless("seed", task.seed, 1).given("refine", task.refine);
-            ("motions", call.given("impacts", task.impacts).given("fields", names(&task.fields)))
-        }
-        Task::Diagram(task) => ("diagram", diagram(&task.typed().ok()?)),
-        Task::Lyapunov(task) => ("exponents", lyapunov(&task.typed().ok()?)),
-        Task::Branch(task) => {
-            let task: BranchPlan = task.typed().ok()?;
-            let to = number(task.to);
-            let to = task.back.map_or_else(|| to.clone(), |back| format!("({}, {to})", number(back)));
-            let call = Call::new("branch").then(text(task.vary.name())).then(to);
-            let call = call.given("label", task.label.as_deref().map(text));
-            let also = |also: Target| mapping(core::iter::once((also.parameter.name(), number(also.to))));
-            let call = call.given("also", task.also.map(also));
-            let call = call.given("orbit", task.orbit).unless("follow", task.follow, 0);
-            ("branch", call.unless("points", task.points, DEFAULT_BRANCH_POINTS))
-        }
-        Task::Curve(task) => {
-            let task: CurvePlan = task.typed().ok()?;
-            let call = Call::new("curve").then(text(task.kind.name())).then(plane(&task.vary, &task.and));
-            let call = call.given("label", task.label.as_deref().map(text));
-            ("curve", call.given("orbit", task.orbit).given("event", task.event).given("points", task.points))
-        }
-        Task::Region(task) => {
-            let task: RegionPlan = task.typed().ok()?;
-            let call = Call::new("region").then(text(&task.label)).then(plane(&task.across, &task.up));
-            ("region", call.unless("grid", task.grid, DEFAULT_GRID))
-        }
-        Task::Response(task) => {
-            let task: ResponsePlan = task.typed().ok()?;
-            let call = Call::new("response").then(text(task.vary.name())).then(values(&task.over));
-            let usual = task.quantity() == Quantity::DisplacementAmplitude;
-            let call = call.given("quantity", (!usual).then(|| text(task.quantity().name())));
-            ("found", call.given("impacts", task.impacts))
-        }
-        Task::Margins(task) => ("margins", margins(&task.typed().ok()?)),
-        Task::Edge(task) => {
-            let task: EdgePlan = task.typed().ok()?;
-            let other = mapping(task.other.iter().map(|one| (one.coordinate.name(), number(one.value))));
-            let call = Call::new("edge").then(other).start(&task.start.unwrap_or_default());
-            ("border", call.given("laps", task.laps).given("impacts", task.impacts))
-        }
-        Task::SettleMany(_) => return None,
+    let system = oscillator(plan.oscillator()?);
+    let (verb, arguments) = arguments(&plan, &Units::default())?;
+    let study = arguments.iter().any(|argument| argument.name == "axes") && verb == "lyapunov";
+    let (function, name) = match verb.as_str() {
+        "simulate" | "settle" => (verb.as_str(), "motion"),
+        "attractors" => ("attractors", "motions"),
+        "orbit" => ("orbits", "orbits"),
+        "map" => ("region_map", "motions"),
+        "diagram" => ("orbit_diagram", "diagram"),
+        "lyapunov" if study => ("Plan.lyapunov", "exponents"),
+        "lyapunov" => ("lyapunov", "exponents"),
+        "response" => ("response", "found"),
+        "edge" => ("edge", "border"),
+        other => (other, other),
     };
-    let told = match &plan.task {
-        Task::Lyapunov(task) if !task.axes.is_empty() => {
-            format!("plan = {}\nvi.run(plan, \"lyapunov.zarr\")\n{name} = vi.open(\"lyapunov.zarr\")\n", call.text())
-        }
-        _ => format!("{name} = {}\n", call.text()),
+    let call = call(function, &arguments);
+    let told = if study {
+        format!("plan = {call}\nvi.run(plan, \"lyapunov.zarr\")\n{name} = vi.open(\"lyapunov.zarr\")\n")
+    } else {
+        format!("{name} = {call}\n")
     };
-    Some(format!("import vibroimpact as vi\n\nosc = {}\n{told}", oscillator(plan.oscillator()?)))
+    Some(format!("import vibroimpact as vi\n\nosc = {system}\n{told}"))
 }
 
 /// The same lines, and one view of the motion into which a start settles. For other tasks as [`python`].
 #[must_use]
 pub fn python_showing(plan: &Plan, view: View) -> Option<String> {
     let text = python(plan)?;
-    let Task::Settle { start, .. } = &plan.task else { return Some(text) };
+    let Task::Settle { .. } = &plan.task else { return Some(text) };
     let shown = match view {
         View::Waveform => "motion.plot()".to_owned(),
         View::Phase => "t, x, v = motion.waveform()  # of a periodic motion, v over x".to_owned(),
         View::Multipliers => "motion.multipliers".to_owned(),
         View::Sections => {
-            format!(
-                "{}.plot_sections()",
-                Call::new("lyapunov").start(&start.unwrap_or_default()).named("points", SECTION_POINTS).text()
-            )
+            let (_, mut arguments) = arguments(plan, &Units::default())?;
+            arguments.retain(|argument| argument.name != "impacts");
+            arguments.push(Argument { name: "points".to_owned(), value: SECTION_POINTS.into(), required: false });
+            format!("{}.plot_sections()", call("lyapunov", &arguments))
         }
     };
     Some(format!("{text}{shown}\n"))
 }
 
-/// A list of quantities; `None` for an empty one.
-fn names(fields: &[Quantity]) -> Option<String> {
-    let all: Vec<String> = fields.iter().map(|field| text(field.name())).collect();
-    (!all.is_empty()).then(|| format!("[{}]", all.join(", ")))
-}
-
-/// A call under construction; its first argument is the oscillator.
-struct Call {
-    function: &'static str,
-    arguments: Vec<String>,
-}
-
-impl Call {
-    fn new(function: &'static str) -> Self {
-        Self { function, arguments: vec!["osc".to_owned()] }
-    }
-
-    fn then(mut self, argument: String) -> Self {
-        self.arguments.push(argument);
-        self
-    }
-
-    #[allow(clippy::needless_pass_by_value)] // a number or a word
-    fn named(self, name: &str, value: impl ToString) -> Self {
-        self.then(format!("{name}={}", value.to_string()))
-    }
-
-    fn given(self, name: &str, value: Option<impl ToString>) -> Self {
-        match value {
-            Some(value) => self.named(name, value),
-            None => self,
+/// The call of a function. What a plan needs stands first without names; its numbers with ranges are one mapping.
+fn call(function: &str, arguments: &[Argument]) -> String {
+    let basin = function == "basin";
+    let first = |argument: &&Argument| {
+        argument.name == "axes" || argument.name == "other" || argument.required && argument.name != "starts"
+    };
+    let (mut words, mut mapping) = (vec!["osc".to_owned()], Vec::new());
+    for argument in arguments.iter().filter(first) {
+        match argument.pairs() {
+            Some(pairs) => mapping.extend(pairs.iter().map(|(name, value)| (name.as_str(), value))),
+            None => words.push(text(&argument.name, &argument.value)),
         }
     }
-
-    /// Adds an argument unless its value is the default.
-    fn unless<T: Copy + PartialEq + ToString>(self, name: &str, value: T, usual: T) -> Self {
-        if value == usual { self } else { self.named(name, value) }
+    // coordinates of the start are named arguments if they come first and in the order of the function
+    let place = |(name, _): &(&str, &Value)| ["x", "v", "phase"].iter().position(|known| known == name);
+    let by_name = mapping.iter().take_while(|one| basin && place(one).is_some()).count();
+    let (named, others) = mapping.split_at(by_name);
+    let orderly = named.is_sorted_by_key(place) && others.iter().all(|one| !basin || place(one).is_none());
+    let (named, others) = if orderly { (named, others) } else { (&[][..], mapping.as_slice()) };
+    if !others.is_empty() {
+        let entries: Vec<String> = others.iter().map(|(name, value)| pair(name, value)).collect();
+        words.push(format!("{{{}}}", entries.join(", ")));
     }
-
-    fn zero(self, name: &str, value: f64) -> Self {
-        // minus zero is a different value and is written
-        if value.to_bits() == 0 { self } else { self.named(name, number(value)) }
+    words.extend(named.iter().map(|(name, value)| format!("{name}={}", text(name, value))));
+    // a fixed value of a quantity on an axis is ignored
+    let varies = |name: &str| mapping.iter().any(|(other, _)| *other == name);
+    for Argument { name, value, .. } in arguments.iter().filter(|argument| !first(argument) && !varies(&argument.name))
+    {
+        words.push(format!("{name}={}", text(name, value)));
     }
+    format!("vi.{function}({})", words.join(", "))
+}
 
-    fn start(self, start: &StartPlan) -> Self {
-        self.given("x", start.x.map(number)).zero("v", start.v).zero("phase", start.phase)
+/// A value, as an argument of this name.
+fn text(name: &str, value: &Value) -> String {
+    let all = |of: &[Value]| of.iter().map(|value| text("", value)).collect::<Vec<_>>().join(", ");
+    match value {
+        // its JSON form is valid in Python
+        Value::String(_) => value.to_string(),
+        Value::Array(ends) if name == "to" => format!("({})", all(ends)),
+        Value::Array(list) => format!("[{}]", all(list)),
+        Value::Object(pairs) => ends(value).map_or_else(
+            || {
+                let entries: Vec<String> = pairs.iter().map(|(name, value)| pair(name, value)).collect();
+                format!("{{{}}}", entries.join(", "))
+            },
+            |[from, to]| format!("({from}, {to})"),
+        ),
+        other => plain(other),
     }
+}
 
-    fn text(&self) -> String {
-        format!("vi.{}({})", self.function, self.arguments.join(", "))
-    }
+fn pair(name: &str, value: &Value) -> String {
+    format!("{}: {}", Value::from(name), text("", value))
 }
 
 /// A body in SI units.
 fn in_si(body: &Body) -> String {
-    let given = numbers_of(body)
-        .into_iter()
-        .filter_map(|(name, value)| Some(format!("{}={}", without_unit(name), number(value?))));
+    let given = numbers_of(body).into_iter();
+    let given = given.map(|(name, value)| format!("{}={}", without_unit(&name), number(value)));
     let space = body.stop_in_space.then(|| "stop_in_space=True".to_owned());
     format!("vi.Oscillator.from_units({})", given.chain(space).collect::<Vec<_>>().join(", "))
 }
@@ -176,116 +131,9 @@ fn oscillator(system: &SystemPlan) -> String {
     if let Some(body) = &system.body {
         return in_si(body);
     }
-    let second = system.second_stop;
-    let parts = [
-        ("beta", system.beta),
-        ("inverse_beta", system.inverse_beta),
-        ("gap", Some(system.gap)),
-        ("restitution", Some(system.restitution)),
-        ("damping", Some(system.damping).filter(|damping| damping.to_bits() != 0)),
-        ("second_gap", second.map(|stop| stop.gap)),
-        ("second_restitution", second.map(|stop| stop.restitution)),
-    ];
-    let given = parts.into_iter().filter_map(|(name, value)| Some(format!("{name}={}", number(value?))));
+    let given =
+        super::numbers(system).into_iter().filter_map(|(name, value)| Some(format!("{name}={}", number(value?))));
     format!("vi.Oscillator({})", given.collect::<Vec<_>>().join(", "))
-}
-
-/// A quoted text. Its JSON form is valid in Python.
-fn text(of: &str) -> String {
-    serde_json::Value::from(of).to_string()
-}
-
-fn values(of: &Values) -> String {
-    match of {
-        Values::Span(span) => text(&span.to_string()),
-        Values::Listed(list) => format!("[{}]", list.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ")),
-    }
-}
-
-fn mapping(entries: impl Iterator<Item = (&'static str, String)>) -> String {
-    let entries: Vec<String> = entries.map(|(name, value)| format!("{}: {value}", text(name))).collect();
-    format!("{{{}}}", entries.join(", "))
-}
-
-fn axes(of: &[Axis]) -> String {
-    mapping(of.iter().map(|axis| (axis.vary.name(), values(&axis.over))))
-}
-
-fn range(of: &Stretch) -> (&'static str, String) {
-    (of.parameter.name(), format!("({}, {})", number(of.from), number(of.to)))
-}
-
-fn plane(one: &Stretch, two: &Stretch) -> String {
-    mapping([range(one), range(two)].into_iter())
-}
-
-/// Coordinates of the start are named arguments if they come first and in the order of the function.
-fn basin(task: &BasinPlan) -> Call {
-    let place = |axis: &Axis| [Coordinate::X, Coordinate::V, Coordinate::Phase].iter().position(|c| *c == axis.vary);
-    let by_name = task.axes.iter().take_while(|axis| place(axis).is_some()).count();
-    let (named, others) = task.axes.split_at(by_name);
-    let orderly = named.is_sorted_by_key(&place) && others.iter().all(|axis| place(axis).is_none());
-    let mut call = Call::new("basin");
-    if !orderly {
-        call = call.then(axes(&task.axes));
-    } else if !others.is_empty() {
-        call = call.then(axes(others));
-    }
-    for axis in named.iter().filter(|_| orderly) {
-        call = call.named(axis.vary.name(), values(&axis.over));
-    }
-    let varies = |coordinate| task.axes.iter().any(|axis| axis.vary == coordinate);
-    let start = &task.start();
-    // a fixed value of a quantity on an axis is ignored
-    let call = call.given("x", start.x.filter(|_| !varies(Coordinate::X)).map(number));
-    let call = if varies(Coordinate::V) { call } else { call.zero("v", start.v) };
-    let call = if varies(Coordinate::Phase) { call } else { call.zero("phase", start.phase) };
-    call.given("refine", task.refine).given("impacts", task.impacts).given("fields", names(&task.fields))
-}
-
-fn diagram(task: &DiagramPlan) -> Call {
-    let call = Call::new("orbit_diagram").then(text(task.vary.name())).then(values(&task.over));
-    let call = call.given("also", task.also.as_ref().map(|also| mapping(core::iter::once(range(also)))));
-    let call = match task.direction {
-        SweepDirection::Both => call,
-        SweepDirection::Up => call.named("direction", text("up")),
-        SweepDirection::Down => call.named("direction", text("down")),
-        SweepDirection::Scatter { starts, seed } => {
-            call.named("direction", text("scatter")).named("starts", starts).named("seed", seed)
-        }
-    };
-    let call = match task.show {
-        Show::Velocity => call,
-        Show::Strobe => call.named("show", text("strobe")),
-        Show::Quantity(quantity) => call.named("show", text(quantity.name())),
-    };
-    call.unless("transient", task.transient, DEFAULT_TRANSIENT).unless("keep", task.keep, DEFAULT_KEEP)
-}
-
-fn margins(task: &MarginsPlan) -> Call {
-    let usual: MarginsPlan = MarginsPlan::default();
-    let call = Call::new("margins").start(&task.start()).given("label", task.label.as_deref().map(text));
-    let names: Vec<String> = task.vary.iter().map(|one| text(one.parameter.name())).collect();
-    let call = call.given("vary", (!names.is_empty()).then(|| format!("[{}]", names.join(", "))));
-    let scales: Vec<_> = task.vary.iter().filter_map(|one| Some((one.parameter.name(), number(one.scale?)))).collect();
-    let call = call.given("scale", (!scales.is_empty()).then(|| mapping(scales.into_iter())));
-    let call = if task.within == usual.within { call } else { call.named("within", number(task.within)) };
-    call.unless("lines", task.lines(), usual.lines())
-}
-
-fn lyapunov(task: &LyapunovPlan) -> Call {
-    let usual: LyapunovPlan = LyapunovPlan::default();
-    let call = if task.axes.is_empty() {
-        Call::new("lyapunov").start(&task.start())
-    } else {
-        Call::new("Plan.lyapunov").then(axes(&task.axes)).start(&task.start())
-    };
-    let call = call.unless("impacts", task.lengths().0, usual.lengths().0).unless(
-        "transient",
-        task.lengths().1,
-        usual.lengths().1,
-    );
-    if task.axes.is_empty() { call.given("points", task.points) } else { call }
 }
 
 #[cfg(test)]
@@ -326,7 +174,7 @@ mod tests {
             ),
             (
                 r#"{"diagram":{"vary":"damping","over":"0:0.1:3","direction":{"scatter":{"starts":3,"seed":0}},"show":"strobe"}}"#,
-                "diagram = vi.orbit_diagram(osc, \"damping\", \"0:0.1:3\", direction=\"scatter\", starts=3, seed=0, show=\"strobe\")\n",
+                "diagram = vi.orbit_diagram(osc, \"damping\", \"0:0.1:3\", show=\"strobe\", direction=\"scatter\", starts=3, seed=0)\n",
             ),
             (
                 r#"{"diagram":{"vary":"damping","over":[0,0.02,0.1],"direction":"up"}}"#,

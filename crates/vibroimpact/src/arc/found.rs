@@ -2,9 +2,9 @@
 
 use super::crossing::Sampling;
 use super::dense_series::DenseSeries;
+use super::expansion::Expansion;
 use super::flight::{MachineFlight, Modes};
 use super::guard_polynomial::GuardPolynomial;
-use super::track::Track;
 
 /// What ends a flight.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +48,7 @@ pub(crate) struct Buffers {
     pub(super) dense: DenseSeries,
     pub(super) polynomials: Vec<GuardPolynomial>,
     pub(super) sampling: Sampling,
-    pub(super) track: Track,
+    pub(super) expansion: Expansion,
     pub(super) known: Vec<usize>,
     pub(super) touched: Vec<bool>,
     pub(super) brackets: Vec<(usize, f64, f64)>,

@@ -12,7 +12,7 @@
 //! | the same with the digits of those that decay | `graded_flight` |
 //! | plain crossings, by samples of the guards | `crossing` |
 //! | guards as polynomials over a window | `guard_polynomial` |
-//! | windows that are passed without the closed form | `track` |
+//! | guards over a window by the series of the structure | `expansion` |
 //! | first zeros of polynomials | `polynomial` |
 //! | what a search finds, and its memory | `found` |
 //! | proof of a zero, and its time | `zero` |
@@ -22,6 +22,7 @@ mod crossing;
 mod dense;
 mod dense_series;
 mod drive;
+mod expansion;
 mod flight;
 mod found;
 mod graded_flight;
@@ -31,7 +32,6 @@ mod never;
 mod polynomial;
 mod search;
 mod steady;
-mod track;
 mod transition;
 mod zero;
 

@@ -12,8 +12,8 @@
 //! polynomials falls with the ninth power of its length. What remains are touches of a guard within rounding, which are
 //! told and have no effect.
 //!
-//! Most windows have one length, and go on from one to the next without the closed form (`track`). Before all this, most
-//! first zeros are found at less cost as plain crossings between samples of the guards (`crossing`).
+//! Where fast modes have no part in it a window is longer (`expansion`). Before all this, most first zeros are found at less cost as
+//! plain crossings between samples of the guards (`crossing`).
 
 use super::crossing::plain_crossing;
 use super::flight::MachineFlight;
@@ -198,72 +198,36 @@ fn search(
 ) -> Found {
     let fastest = flight.structure.fastest();
     let series = flight.structure.windows().first();
-    let decays = flight.structure.windows().get(1).is_some_and(Window::leaves_out_decays);
+    let windows = flight.structure.windows();
+    let decays = windows.get(1).is_some_and(Window::leaves_out_decays);
     let quiet = flight.quiet_time(HIGHEST);
     let mut s = 0.0;
     let mut reach = 1.0;
-    let mut on_track = false;
     while steps > 0 {
         steps -= 1;
         if s >= until {
             return Found::NoneBefore(until);
         }
         let is_quiet = s < 0.999 * quiet;
-        // whether the modes are those at `s`: they cost more than all else of a window
-        let mut here = false;
-        if let Some(series) = series
+        flight.at(s, &mut buffers.modes);
+        if series.is_some() {
+            buffers.expansion.settle(flight, &buffers.modes);
+        }
+        // close to a zero no long window is positive
+        if windows.len() > 1
             && (reach == 1.0 || decays)
             && fastest > 0.0
             && !is_quiet
             && !buffers.stalled
+            && let Some(length) = buffers.expansion.long_window(flight, &buffers.modes, until - s)
         {
-            // windows without a zero are passed without the closed form
-            if !on_track {
-                flight.at(s, &mut buffers.modes);
-                buffers.track.settle(flight, &buffers.modes);
-                here = true;
-            }
-            on_track = false;
-            let blocked = buffers.track.pass(flight, until, &mut steps, &mut buffers.polynomials);
-            // up to here all guards are clearly positive
-            if buffers.track.s > s {
-                s = buffers.track.s;
-                touched.fill(false);
-                here = false;
-            }
-            let Some(part) = blocked else { continue };
-            let standing = flight.guards.iter().any(|guard| guard.recovery.is_some());
-            if decays && (s == 0.0 || standing) {
-                if !core::mem::replace(&mut here, true) {
-                    flight.at(s, &mut buffers.modes);
-                }
-                if let Some(length) = buffers.track.long_window(flight, &buffers.modes, until - s) {
-                    s += length;
-                    touched.fill(false);
-                    continue;
-                }
-            }
-            let first = first_of(&mut buffers.polynomials);
-            let Some((near, _)) = first else {
-                // no zero after all; after a whole window the state goes on from here, of a part it is not known
-                on_track = part >= 1.0;
-                buffers.track.step(series);
-                s = if on_track { buffers.track.s } else { until };
-                continue;
-            };
-            if !standing && let Some(found) = certain(flight, series.length * part, s, near, buffers) {
-                return found;
-            }
+            s += length;
+            touched.fill(false);
+            continue;
         }
         // after the beginning of the flight a contact on which it began is a guard as any other
         if s > 0.0 {
             known.fill(0);
-        }
-        if !here {
-            flight.at(s, &mut buffers.modes);
-            if series.is_some() {
-                buffers.track.settle(flight, &buffers.modes);
-            }
         }
         let surfaces = flight.guards.iter().filter_map(|guard| guard.recovery);
         // a surface that has recovered does not shorten the window
@@ -276,16 +240,13 @@ fn search(
         if is_quiet {
             window = window.min(quiet - s);
         }
-        match series {
-            Some(_) => {
-                buffers.track.energies(flight);
-            }
-            None => buffers.dense.expand(flight, &buffers.modes, window),
+        if series.is_none() {
+            buffers.dense.expand(flight, &buffers.modes, window);
         }
         buffers.polynomials.clear();
         for (g, known) in known.iter_mut().enumerate() {
             let of = match series {
-                Some(series) => buffers.track.polynomial(flight, g, series, window, *known, &buffers.modes),
+                Some(series) => buffers.expansion.polynomial(flight, g, series, window, *known, &buffers.modes),
                 None => buffers.dense.polynomial(flight, g, window, *known, &buffers.modes),
             };
             *known = of.known;

@@ -61,15 +61,10 @@ fn proven(
     for (g, from, to) in brackets.iter_mut() {
         let (g, from, to) = (*g, from, *to);
         let of = buffers.polynomials[g];
-        // a first approximation: nearly exact by the series of all powers
+        // a first approximation
         let guess = || {
             let (t, curvature) = crossing_of(&without_remainder(&of.p), *from, to);
-            match flight.structure.windows().first() {
-                Some(series) if flight.guards[g].recovery.is_none() => {
-                    buffers.track.sharp(flight, series, g, t * window / series.length)
-                }
-                _ => (s + t * window, curvature / (window * window)),
-            }
+            (s + t * window, curvature / (window * window))
         };
         let along = of.beside(0.0);
         let at = if of.known == 0 && along[0] <= 0.0 {

@@ -8,8 +8,9 @@
 
 use super::pack::Pack;
 use super::pair::Half;
+use super::register::{in_register, mask_in_register};
 use super::single::EightSingle;
-use crate::math::{Lane, Mask, Numbers, sin_cos_lanes};
+use crate::math::{Lane, Numbers, sin_cos_lanes};
 use core::arch::x86_64::{
     __m256d, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_andnot_pd, _mm256_blendv_pd, _mm256_castpd_si256,
     _mm256_castps128_ps256, _mm256_castps256_ps128, _mm256_castsi256_pd, _mm256_cmp_pd, _mm256_cvtpd_ps,
@@ -18,88 +19,16 @@ use core::arch::x86_64::{
     _mm256_set_pd, _mm256_set1_pd, _mm256_slli_epi64, _mm256_sqrt_pd, _mm256_storeu_pd, _mm256_sub_pd,
     _mm256_unpackhi_pd, _mm256_unpacklo_pd, _mm256_xor_pd,
 };
-use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Four numbers.
-#[derive(Clone, Copy)]
-pub(super) struct Four(__m256d);
-
-/// Four truth values; all bits of an element are set, or none.
-#[derive(Clone, Copy)]
-pub(super) struct FourMask(__m256d);
-
-macro_rules! by_intrinsic {
-    ($($operation:ident $method:ident $intrinsic:ident),*) => {$(
-        impl $operation for Four {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                Self(unsafe { $intrinsic(self.0, other.0) })
-            }
-        }
-    )*};
+in_register! {
+    /// Four numbers.
+    Four(__m256d), 4 of f64, mask FourMask,
+    Add add _mm256_add_pd, Sub sub _mm256_sub_pd, Mul mul _mm256_mul_pd, Div div _mm256_div_pd;
+    set1 _mm256_set1_pd, xor _mm256_xor_pd, andnot _mm256_andnot_pd, max _mm256_max_pd, min _mm256_min_pd,
+    sqrt _mm256_sqrt_pd,
+    less |a, b| FourMask(_mm256_cmp_pd::<_CMP_LT_OQ>(a, b)), choose |mask, yes, no| _mm256_blendv_pd(no, yes, mask)
 }
-by_intrinsic!(Add add _mm256_add_pd, Sub sub _mm256_sub_pd, Mul mul _mm256_mul_pd, Div div _mm256_div_pd);
-
-impl Neg for Four {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        // flips the sign bit, of zeros and NaN too, as one number does
-        Self(unsafe { _mm256_xor_pd(self.0, _mm256_set1_pd(-0.0)) })
-    }
-}
-
-impl Mask for FourMask {
-    #[inline(always)]
-    fn and(self, other: Self) -> Self {
-        Self(unsafe { _mm256_and_pd(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn or(self, other: Self) -> Self {
-        Self(unsafe { _mm256_or_pd(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn bits(self) -> u32 {
-        unsafe { _mm256_movemask_pd(self.0) }.cast_unsigned()
-    }
-}
-
-impl Numbers for Four {
-    type Mask = FourMask;
-    const WIDTH: usize = 4;
-    #[inline(always)]
-    fn splat(x: f64) -> Self {
-        Self(unsafe { _mm256_set1_pd(x) })
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
-    }
-    // `maxpd` and `minpd` return the second operand unless the first is greater (less), as the trait requires
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Self(unsafe { _mm256_max_pd(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Self(unsafe { _mm256_min_pd(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(unsafe { _mm256_sqrt_pd(self.0) })
-    }
-    #[inline(always)]
-    fn less(self, other: Self) -> FourMask {
-        // false where one is NaN, as for one number
-        FourMask(unsafe { _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn choose(mask: FourMask, yes: Self, no: Self) -> Self {
-        // the intrinsic takes its second operand where the sign bit of the mask is set
-        Self(unsafe { _mm256_blendv_pd(no.0, yes.0, mask.0) })
-    }
-}
+mask_in_register!(FourMask(__m256d), and _mm256_and_pd, or _mm256_or_pd, bits _mm256_movemask_pd);
 
 impl Half for Four {
     type Double = EightSingle;

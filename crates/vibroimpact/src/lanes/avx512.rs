@@ -7,46 +7,30 @@
 #![allow(unsafe_code)]
 
 use super::pair::{Half, Pair};
+use super::register::in_register;
 use super::single::EightSingle;
 use crate::math::{Lane, Mask, Numbers, sin_cos_lanes};
 use core::arch::x86_64::{
-    __m512d, _CMP_LT_OQ, _MM_FROUND_NO_EXC, _MM_FROUND_TO_NEG_INF, _mm512_abs_pd, _mm512_add_pd, _mm512_and_pd,
+    __m512d, _CMP_LT_OQ, _MM_FROUND_NO_EXC, _MM_FROUND_TO_NEG_INF, _mm512_add_pd, _mm512_and_pd, _mm512_andnot_pd,
     _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_cvtpd_ps, _mm512_cvtps_pd, _mm512_div_pd,
     _mm512_loadu_pd, _mm512_mask_blend_pd, _mm512_max_pd, _mm512_min_pd, _mm512_movepi64_mask, _mm512_mul_pd,
     _mm512_roundscale_pd, _mm512_set1_pd, _mm512_shuffle_f64x2, _mm512_slli_epi64, _mm512_sqrt_pd, _mm512_storeu_pd,
     _mm512_sub_pd, _mm512_unpackhi_pd, _mm512_unpacklo_pd, _mm512_xor_pd,
 };
-use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Eight numbers.
-#[derive(Clone, Copy)]
-pub(super) struct Eight(__m512d);
+in_register! {
+    /// Eight numbers.
+    Eight(__m512d), 8 of f64, mask EightMask,
+    Add add _mm512_add_pd, Sub sub _mm512_sub_pd, Mul mul _mm512_mul_pd, Div div _mm512_div_pd;
+    set1 _mm512_set1_pd, xor _mm512_xor_pd, andnot _mm512_andnot_pd, max _mm512_max_pd, min _mm512_min_pd,
+    sqrt _mm512_sqrt_pd,
+    less |a, b| EightMask(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b)),
+    choose |mask, yes, no| _mm512_mask_blend_pd(mask, no, yes)
+}
 
 /// Eight truth values.
 #[derive(Clone, Copy)]
 pub(super) struct EightMask(u8);
-
-macro_rules! by_intrinsic {
-    ($($operation:ident $method:ident $intrinsic:ident),*) => {$(
-        impl $operation for Eight {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                Self(unsafe { $intrinsic(self.0, other.0) })
-            }
-        }
-    )*};
-}
-by_intrinsic!(Add add _mm512_add_pd, Sub sub _mm512_sub_pd, Mul mul _mm512_mul_pd, Div div _mm512_div_pd);
-
-impl Neg for Eight {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        // flips the sign bit, of zeros and NaN too, as one number does
-        Self(unsafe { _mm512_xor_pd(self.0, _mm512_set1_pd(-0.0)) })
-    }
-}
 
 impl Mask for EightMask {
     #[inline(always)]
@@ -60,42 +44,6 @@ impl Mask for EightMask {
     #[inline(always)]
     fn bits(self) -> u32 {
         u32::from(self.0)
-    }
-}
-
-impl Numbers for Eight {
-    type Mask = EightMask;
-    const WIDTH: usize = 8;
-    #[inline(always)]
-    fn splat(x: f64) -> Self {
-        Self(unsafe { _mm512_set1_pd(x) })
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self(unsafe { _mm512_abs_pd(self.0) })
-    }
-    // `maxpd` and `minpd` return the second operand unless the first is greater (less), as the trait requires
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Self(unsafe { _mm512_max_pd(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Self(unsafe { _mm512_min_pd(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(unsafe { _mm512_sqrt_pd(self.0) })
-    }
-    #[inline(always)]
-    fn less(self, other: Self) -> EightMask {
-        // false where one is NaN, as for one number
-        EightMask(unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn choose(mask: EightMask, yes: Self, no: Self) -> Self {
-        // the intrinsic takes its second operand where the mask is set
-        Self(unsafe { _mm512_mask_blend_pd(mask.0, no.0, yes.0) })
     }
 }
 

@@ -14,7 +14,7 @@
 //! | many motions that do not wait for each other | [`Batch`] |
 //! | the number of flights side by side, and the choice by processor | [`Width`] |
 //! | steps that are not proven clear, side by side; moving selected elements to the front | `uncertain`, `compaction` |
-//! | the lane types | `pack` (portable), `avx2` and `single`, `avx512`, `pair` |
+//! | the lane types | `pack` (portable), `avx2` and `single`, `avx512`, `pair`; the arithmetic of one register, `register` |
 //!
 //! The algorithm is written once, generic over the lane type of [`math`](crate::math). A single
 //! [`Motion`](crate::motion::Motion) uses its scalar instance. Lanes and scalar agree bit for bit, because every lane
@@ -38,6 +38,8 @@ mod pack;
 mod pair;
 mod points;
 mod propagator_cache;
+#[cfg(target_arch = "x86_64")]
+mod register;
 #[cfg(target_arch = "x86_64")]
 mod single;
 mod slots;

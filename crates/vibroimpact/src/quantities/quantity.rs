@@ -1,7 +1,7 @@
 //! The quantities by name.
 
 use crate::flight::Extreme;
-use crate::system::QuantityKind;
+use crate::system::QuantityKind as Kind;
 
 /// A quantity of a motion. For a periodic motion it refers to its smallest period, for chaos to the impacts that were
 /// followed. The first ones are those of an oscillator, and a machine or a part of it has many of them; the last ones only parts of a
@@ -100,41 +100,58 @@ impl Quantity {
         Self::StickingFraction,
     ];
 
+    /// Its name, what it is in words, and its kind.
+    const fn entry(self) -> (&'static str, &'static str, Kind) {
+        match self {
+            Self::ImpactSpeedMax => ("impact_speed_max", "largest impact speed", Kind::Velocity),
+            Self::ImpactSpeedMean => ("impact_speed_mean", "mean impact speed", Kind::Velocity),
+            Self::ImpactsPerPeriod => ("impacts_per_period", "impacts per forcing period", Kind::Number),
+            Self::ImpactRate => ("impact_rate", "impacts per unit of time", Kind::Rate),
+            Self::ImpulseMax => ("impulse_max", "largest impulse of an impact", Kind::Impulse),
+            Self::ImpulsePerPeriod => ("impulse_per_period", "impulse per forcing period", Kind::Impulse),
+            Self::ImpactLossPerPeriod => {
+                ("impact_loss_per_period", "energy lost in impacts per forcing period", Kind::Energy)
+            }
+            Self::ImpactPower => ("impact_power", "power lost in impacts", Kind::Power),
+            Self::DampingLossPerPeriod => {
+                ("damping_loss_per_period", "energy lost in the damper per forcing period", Kind::Energy)
+            }
+            Self::DampingPower => ("damping_power", "power lost in the damper", Kind::Power),
+            Self::WorkPerPeriod => ("work_per_period", "work of the force per forcing period", Kind::Energy),
+            Self::Power => ("power", "power of the force", Kind::Power),
+            Self::DisplacementMin => ("displacement_min", "smallest displacement", Kind::Length),
+            Self::DisplacementMax => ("displacement_max", "largest displacement", Kind::Length),
+            Self::DisplacementAmplitude => ("displacement_amplitude", "displacement amplitude", Kind::Length),
+            Self::DisplacementMean => ("displacement_mean", "mean displacement", Kind::Length),
+            Self::DisplacementRms => ("displacement_rms", "rms displacement", Kind::Length),
+            Self::VelocityMax => ("velocity_max", "largest speed", Kind::Velocity),
+            Self::VelocityRms => ("velocity_rms", "rms velocity", Kind::Velocity),
+            Self::AccelerationMax => ("acceleration_max", "largest acceleration between impacts", Kind::Acceleration),
+            Self::StickingFraction => ("sticking_fraction", "part of the time on a stop", Kind::Number),
+            Self::MomentumPerPeriod => (
+                "momentum_per_period",
+                "impulse of all impacts, contact forces and reactions per forcing period",
+                Kind::Impulse,
+            ),
+            Self::ForceMax => ("force_max", "largest force", Kind::Force),
+            Self::ContactFraction => ("contact_fraction", "part of the time in contact", Kind::Number),
+            Self::HoldingFraction => ("holding_fraction", "part of the time in which a joint holds", Kind::Number),
+            Self::ContactLossPerPeriod => {
+                ("contact_loss_per_period", "energy lost in the dampers of stops per forcing period", Kind::Energy)
+            }
+            Self::ContactPower => ("contact_power", "power lost in the dampers of stops", Kind::Power),
+            Self::FrictionLossPerPeriod => {
+                ("friction_loss_per_period", "energy lost in friction per forcing period", Kind::Energy)
+            }
+            Self::FrictionPower => ("friction_power", "power lost in friction", Kind::Power),
+            Self::VelocityMean => ("velocity_mean", "mean velocity", Kind::Velocity),
+        }
+    }
+
     /// Its name in JSON, CSV and plans.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::ImpactSpeedMax => "impact_speed_max",
-            Self::ImpactSpeedMean => "impact_speed_mean",
-            Self::ImpactsPerPeriod => "impacts_per_period",
-            Self::ImpactRate => "impact_rate",
-            Self::ImpulseMax => "impulse_max",
-            Self::ImpulsePerPeriod => "impulse_per_period",
-            Self::ImpactLossPerPeriod => "impact_loss_per_period",
-            Self::ImpactPower => "impact_power",
-            Self::DampingLossPerPeriod => "damping_loss_per_period",
-            Self::DampingPower => "damping_power",
-            Self::WorkPerPeriod => "work_per_period",
-            Self::Power => "power",
-            Self::DisplacementMin => "displacement_min",
-            Self::DisplacementMax => "displacement_max",
-            Self::DisplacementAmplitude => "displacement_amplitude",
-            Self::DisplacementMean => "displacement_mean",
-            Self::DisplacementRms => "displacement_rms",
-            Self::VelocityMax => "velocity_max",
-            Self::VelocityRms => "velocity_rms",
-            Self::AccelerationMax => "acceleration_max",
-            Self::StickingFraction => "sticking_fraction",
-            Self::MomentumPerPeriod => "momentum_per_period",
-            Self::ForceMax => "force_max",
-            Self::ContactFraction => "contact_fraction",
-            Self::HoldingFraction => "holding_fraction",
-            Self::ContactLossPerPeriod => "contact_loss_per_period",
-            Self::ContactPower => "contact_power",
-            Self::FrictionLossPerPeriod => "friction_loss_per_period",
-            Self::FrictionPower => "friction_power",
-            Self::VelocityMean => "velocity_mean",
-        }
+        self.entry().0
     }
 
     /// The quantity of an oscillator with this name; hyphens and underscores are equal.
@@ -147,38 +164,7 @@ impl Quantity {
     /// What it is, in words.
     #[must_use]
     pub const fn description(self) -> &'static str {
-        match self {
-            Self::ImpactSpeedMax => "largest impact speed",
-            Self::ImpactSpeedMean => "mean impact speed",
-            Self::ImpactsPerPeriod => "impacts per forcing period",
-            Self::ImpactRate => "impacts per unit of time",
-            Self::ImpulseMax => "largest impulse of an impact",
-            Self::ImpulsePerPeriod => "impulse per forcing period",
-            Self::ImpactLossPerPeriod => "energy lost in impacts per forcing period",
-            Self::ImpactPower => "power lost in impacts",
-            Self::DampingLossPerPeriod => "energy lost in the damper per forcing period",
-            Self::DampingPower => "power lost in the damper",
-            Self::WorkPerPeriod => "work of the force per forcing period",
-            Self::Power => "power of the force",
-            Self::DisplacementMin => "smallest displacement",
-            Self::DisplacementMax => "largest displacement",
-            Self::DisplacementAmplitude => "displacement amplitude",
-            Self::DisplacementMean => "mean displacement",
-            Self::DisplacementRms => "rms displacement",
-            Self::VelocityMax => "largest speed",
-            Self::VelocityRms => "rms velocity",
-            Self::AccelerationMax => "largest acceleration between impacts",
-            Self::StickingFraction => "part of the time on a stop",
-            Self::MomentumPerPeriod => "impulse of all impacts, contact forces and reactions per forcing period",
-            Self::ForceMax => "largest force",
-            Self::ContactFraction => "part of the time in contact",
-            Self::HoldingFraction => "part of the time in which a joint holds",
-            Self::ContactLossPerPeriod => "energy lost in the dampers of stops per forcing period",
-            Self::ContactPower => "power lost in the dampers of stops",
-            Self::FrictionLossPerPeriod => "energy lost in friction per forcing period",
-            Self::FrictionPower => "power lost in friction",
-            Self::VelocityMean => "mean velocity",
-        }
+        self.entry().1
     }
 
     /// Whether it is a sum over impacts, or a time on a stop, and needs no integral over the flights.
@@ -231,34 +217,8 @@ impl Quantity {
 
     /// Its kind, which determines its unit.
     #[must_use]
-    pub const fn kind(self) -> QuantityKind {
-        match self {
-            Self::ImpactSpeedMax
-            | Self::ImpactSpeedMean
-            | Self::VelocityMax
-            | Self::VelocityMean
-            | Self::VelocityRms => QuantityKind::Velocity,
-            Self::ImpactsPerPeriod | Self::StickingFraction | Self::ContactFraction | Self::HoldingFraction => {
-                QuantityKind::Number
-            }
-            Self::ImpactRate => QuantityKind::Rate,
-            Self::ImpulseMax | Self::ImpulsePerPeriod | Self::MomentumPerPeriod => QuantityKind::Impulse,
-            Self::ImpactLossPerPeriod
-            | Self::ContactLossPerPeriod
-            | Self::FrictionLossPerPeriod
-            | Self::DampingLossPerPeriod
-            | Self::WorkPerPeriod => QuantityKind::Energy,
-            Self::ImpactPower | Self::ContactPower | Self::FrictionPower | Self::DampingPower | Self::Power => {
-                QuantityKind::Power
-            }
-            Self::DisplacementMin
-            | Self::DisplacementMax
-            | Self::DisplacementAmplitude
-            | Self::DisplacementMean
-            | Self::DisplacementRms => QuantityKind::Length,
-            Self::AccelerationMax => QuantityKind::Acceleration,
-            Self::ForceMax => QuantityKind::Force,
-        }
+    pub const fn kind(self) -> Kind {
+        self.entry().2
     }
 }
 

@@ -59,4 +59,4 @@ pub(crate) use sampled::{POWERS, REST, SAMPLES, Sampled, Span};
 pub(crate) use signal::{Observable, Signal, turned};
 pub(crate) use structure::Structure;
 pub(crate) use translations::Translations;
-pub(crate) use window::{ALL, REACH, Window, add_harmonic, derivative_bounds};
+pub(crate) use window::{REACH, Window, add_harmonic, derivative_bounds};

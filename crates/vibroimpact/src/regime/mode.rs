@@ -101,11 +101,6 @@ impl Mode {
         Self { k, d, omega, rate: omega + 2.0 * d, decays, free: stiff.then(|| FreeResponse::new(damping)), forced }
     }
 
-    /// A bound of the free response to a unit velocity; with a stiffness.
-    pub(crate) fn largest_response(&self) -> f64 {
-        self.decays.map_or(1.0 / self.omega, |(slow, fast)| 1.0 / (fast - slow))
-    }
-
     /// The free responses after a time `s >= 0`.
     pub(crate) fn free(&self, s: f64) -> FreeMode {
         let Some(response) = &self.free else { return self.without_stiffness(s) };

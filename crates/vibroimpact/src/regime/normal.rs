@@ -43,6 +43,8 @@ pub(crate) struct Normal {
     pub(crate) approaches: Vec<Approach>,
     /// Angular frequencies of the harmonics.
     pub(crate) rates: Vec<f64>,
+    /// The same, and 0 for harmonics that neither force nor move anything: no flight changes as fast as they do.
+    pub(crate) driven: Vec<f64>,
     /// Orders of the harmonics.
     pub(crate) orders: Vec<f64>,
     /// The directions along which all of it can be moved.
@@ -68,6 +70,8 @@ impl Normal {
         orders.dedup();
         let (force, walls) = signals(parts, &orders, &factor);
         let rates: Vec<f64> = orders.iter().map(|order| f64::from(*order) * parts.frequency.unwrap_or(0.0)).collect();
+        let drives = |h: usize| force.iter().chain(&walls).any(|signal: &Signal| signal.harmonics[h] != (0.0, 0.0));
+        let driven = rates.iter().enumerate().map(|(h, rate)| if drives(h) { *rate } else { 0.0 }).collect();
         let (stiffness, damping) = (parts.stiffness.reduced(&factor), parts.damping.reduced(&factor));
         let approach = |(stop, wall): (&Stop, &Signal)| {
             let w = factor.solve_lower(&stop.direction);
@@ -96,6 +100,7 @@ impl Normal {
             directions,
             walls,
             rates,
+            driven,
             orders: orders.iter().map(|order| f64::from(*order)).collect(),
             translations: Translations::new(parts, &factor),
             // the factor is lower triangular: nothing else stands above the diagonal

@@ -23,7 +23,7 @@ pub(crate) fn rates(structure: &Structure) -> Vec<(f64, f64)> {
     if structure.dense.is_some() {
         return vec![(structure.fastest(), 0.0)];
     }
-    let mut rates: Vec<(f64, f64)> = structure.rates.last().map(|rate| (*rate, 0.0)).into_iter().collect();
+    let mut rates: Vec<(f64, f64)> = vec![(structure.forcing(), 0.0)];
     for mode in &structure.modes {
         if mode.k == 0.0 {
             // a free body: its velocity decays at the rate 2d

@@ -24,7 +24,7 @@ impl Moved<'_> {
 
     /// The fastest rate of the forcing.
     pub(super) fn rate(&self) -> f64 {
-        self.rates.last().copied().unwrap_or(0.0)
+        self.rates.iter().copied().fold(0.0, f64::max)
     }
 }
 

@@ -58,6 +58,8 @@ pub(crate) struct Structure {
     /// Acceleration per unit of reaction, and rate of the damping, along each of these.
     pub(crate) mobility: Vec<(f64, f64)>,
     pub(crate) rates: Vec<f64>,
+    /// The same, and 0 for those that move nothing.
+    pub(super) driven: Vec<f64>,
     /// What is needed for the constant force on the modes at a given position.
     rest: RestForce,
     /// Whether modal displacements are combinations of coordinates alone, and modal velocities of velocities alone: no damping
@@ -130,6 +132,7 @@ impl Structure {
             shared: constraints.shared,
             sharing: constraints.sharing,
             rates: normal.rates.clone(),
+            driven: normal.driven.clone(),
             plain: false,
             pressing: Vec::new(),
             windows: OnceLock::new(),
@@ -152,9 +155,7 @@ impl Structure {
         self.carries = self.x.iter().chain(&self.v).any(|of| of.signal.moves());
         self.swings = self.carries || self.closed.iter().any(|closed| closed.gap.signal.moves());
         self.pressing = self.reactions.iter().map(|reaction| self.pressing(reaction)).collect();
-        // the rates of the harmonics are sorted
-        let forcing = self.rates.last().copied().unwrap_or(0.0);
-        self.fastest = self.modes.iter().map(|mode| mode.rate).fold(forcing, f64::max);
+        self.fastest = self.modes.iter().map(|mode| mode.rate).fold(self.forcing(), f64::max);
         // last, because guards read all of the above
         self.guards = self.all_guards(machine, normal);
         self
@@ -172,7 +173,7 @@ impl Structure {
 
     /// Tables of all guards; `None` without modes.
     fn tables<T>(&self, of: impl Fn(Moved<'_>, &[&Observable]) -> T) -> Option<T> {
-        let moved = Moved { modes: &self.modes, drive: &self.drive, rates: &self.rates };
+        let moved = Moved { modes: &self.modes, drive: &self.drive, rates: &self.driven };
         let guards: Vec<&Observable> = self.guards.iter().map(|guard| &guard.function).collect();
         self.dense.is_none().then(|| of(moved, &guards))
     }
@@ -200,6 +201,11 @@ impl Structure {
             add_scaled(&mut damped, closed.law.1 * dot(w, velocities), w);
         }
         damped
+    }
+
+    /// The fastest rate of the harmonics that move something.
+    pub(super) fn forcing(&self) -> f64 {
+        self.driven.iter().copied().fold(0.0, f64::max)
     }
 
     /// The fastest rate of the free motion and of the forcing.

@@ -12,18 +12,14 @@
 //! slow and of a fast decay, $`u = U_1 e^{-\lambda_1 s} + U_2 e^{-\lambda_2 s}`$. Only the fast one is faint: the slow one is
 //! expanded.
 
-use super::bernstein::{TERMS, bernstein};
+use super::bernstein::TERMS;
 use super::mode::Mode;
-use super::pass::{Moved, Pass};
+use super::pass::Moved;
 use super::signal::Observable;
 use crate::math::{hypot, sort_by};
 
 /// Eight powers are expanded; the ninth is the remainder.
 const ORDER: usize = TERMS - 1;
-/// Number of higher powers, with which the series is exact to about 1e-15 of the motion.
-const TAIL: usize = 12;
-/// Number of all powers.
-pub(crate) const ALL: usize = ORDER + TAIL;
 /// The window in radians of the fastest rate: the bound of the remainder is about 1e-4 of the motion.
 pub(crate) const REACH: f64 = 1.6;
 /// Each longer window leaves out modes until the fastest rate that remains is below this part of the one before.
@@ -37,7 +33,6 @@ const LONGER: f64 = 8.0;
 #[derive(Clone, Debug)]
 pub(crate) struct Window {
     pub(crate) length: f64,
-    pass: Pass,
     pub(crate) guards: Vec<GuardSeries>,
     pub(crate) faint: Vec<Faint>,
 }
@@ -47,29 +42,11 @@ pub(crate) struct Window {
 pub(crate) struct GuardSeries {
     /// The coefficients for each element of the state.
     rows: Vec<[f64; TERMS]>,
-    /// The same in Bernstein's form: all are positive only if the series is positive in the whole window.
-    hull: Vec<[f64; TERMS]>,
-    /// Those of higher powers, from the ninth on; in the shortest window only.
-    tail: Vec<[f64; TAIL]>,
-    /// Of each mode.
-    weights: Vec<Weight>,
-    /// Modes without stiffness, and the sizes of the factors of their displacements and velocities.
-    loose: Vec<(usize, f64, f64)>,
-    /// The size of the harmonics, and the remainder of all of them.
-    swing: f64,
+    /// What each mode adds to the remainder per energy and per force on it, and what all harmonics add.
+    weights: Vec<(f64, f64)>,
     constant: f64,
     /// What the energies of the free parts of faint modes can take away.
     faint: Vec<f64>,
-}
-
-/// What a mode adds to the remainder of a guard, and to the size of its terms, per energy, largest speed and force on it.
-#[derive(Clone, Copy, Debug, Default)]
-struct Weight {
-    energy: f64,
-    push: f64,
-    size_of_energy: f64,
-    size_of_speed: f64,
-    size_of_push: f64,
 }
 
 /// A mode that is not expanded.
@@ -208,22 +185,12 @@ impl Window {
         let whole = level.faint.iter().map(|i| Faint::new(of, *i, None));
         let decaying = level.decaying.iter().map(|i| Faint::new(of, *i, of.modes[*i].decays));
         let faint: Vec<Faint> = whole.chain(decaying).collect();
-        Self {
-            length,
-            pass: Pass::new(of, length),
-            guards: guards.iter().map(|guard| GuardSeries::new(of, guard, &faint, length)).collect(),
-            faint,
-        }
+        Self { length, guards: guards.iter().map(|guard| GuardSeries::new(of, guard, &faint, length)).collect(), faint }
     }
 
     /// Whether fast decays of modes are all that is faint in it.
     pub(crate) fn leaves_out_decays(&self) -> bool {
         !self.faint.is_empty() && self.faint.iter().all(|faint| faint.decays.is_some())
-    }
-
-    /// The state at the end of a window.
-    pub(crate) fn pass(&self, z: &mut [f64]) {
-        self.pass.pass(z);
     }
 }
 
@@ -240,22 +207,10 @@ impl GuardSeries {
         // the ninth term of each harmonic
         let mut constant: f64 =
             guard.signal.harmonics.iter().zip(of.rates).map(|((a, b), w)| hypot(*a, *b) * power(w * length)).sum();
-        let swing = guard.signal.harmonics.iter().map(|(a, b)| hypot(*a, *b)).sum();
-        let mut weights = vec![Weight::default(); of.modes.len()];
-        let mut loose = Vec::new();
+        let mut weights = vec![(0.0, 0.0); of.modes.len()];
         let mut lost = Vec::with_capacity(faint.len());
-        for i in 0..of.modes.len() {
+        for (i, mode) in of.modes.iter().enumerate() {
             let (a, b) = (guard.position[i], guard.velocity[i]);
-            let mode = &of.modes[i];
-            // for rounding errors: counted from the beginning of the flight, a displacement is up to twice the
-            // amplitude
-            if mode.k > 0.0 {
-                weights[i].size_of_energy = 2.0 * a.abs() / mode.omega;
-                weights[i].size_of_speed = 2.0 * b.abs();
-                weights[i].size_of_push = 2.0 * (a.abs() / mode.k + b.abs() * mode.largest_response());
-            } else {
-                loose.push((i, a.abs(), b.abs()));
-            }
             if let Some(faint) = is_faint(i) {
                 // the steady response, which is as slow as the forcing, is all that is expanded of a faint mode
                 row[3 * i + 2] = a / faint.k;
@@ -269,7 +224,7 @@ impl GuardSeries {
                 if let Some((slow, fast)) = faint.decays {
                     // the ninth power of the slow decay, by the energy and by the steady response
                     let ninth = (a - b * slow).abs() * power(slow * length) / (fast - slow);
-                    weights[i].energy = ninth * (1.0 + fast / mode.omega);
+                    weights[i].0 = ninth * (1.0 + fast / mode.omega);
                     let steady = faint.response.iter().zip(of.rates).map(|((x, y), w)| (w + fast) * hypot(*x, *y));
                     constant += ninth * steady.sum::<f64>();
                 }
@@ -280,8 +235,7 @@ impl GuardSeries {
             // the ninth coefficient of the velocity is this times the tenth of the displacement
             let rate = 10.0 / length;
             let sum = |(ninth, tenth): (f64, f64)| a.abs() * ninth + b.abs() * rate * tenth;
-            weights[i].energy = sum(bounds.energy);
-            weights[i].push = sum(bounds.push);
+            weights[i] = (sum(bounds.energy), sum(bounds.push));
             constant += sum(bounds.constant);
         }
         // the most that a free part takes away: the displacement is at most E/sqrt(k), the velocity at most E; of a
@@ -296,17 +250,9 @@ impl GuardSeries {
         // g A^k H^k / k!, one derivative after another
         let mut rows = vec![[0.0; TERMS]; row.len()];
         let (mut size, mut k) = (1.0, 1.0);
-        let mut tail = if faint.is_empty() { vec![[0.0; TAIL]; row.len()] } else { Vec::new() };
-        for order in 0..ALL {
-            if order < ORDER {
-                for (to, value) in rows.iter_mut().zip(&row) {
-                    to[order] = size * value;
-                }
-            }
-            if order >= ORDER {
-                for (to, value) in tail.iter_mut().zip(&row) {
-                    to[order - ORDER] = size * value;
-                }
+        for order in 0..ORDER {
+            for (to, value) in rows.iter_mut().zip(&row) {
+                to[order] = size * value;
             }
             row = of.derivative(&row);
             size *= length / k;
@@ -318,23 +264,7 @@ impl GuardSeries {
         // prescribed functions of time are rare: their elements are the last
         let used = rows.iter().rposition(|row| row.iter().any(|value| *value != 0.0)).map_or(0, |last| last + 1);
         rows.truncate(used);
-        tail.truncate(used);
-        let hull = rows.iter().map(bernstein).collect();
-        Self { rows, hull, tail, weights, loose, swing, constant, faint: lost }
-    }
-
-    /// The least coefficient in Bernstein's form at a state, with `constant` added and the remainder taken away.
-    pub(crate) fn lowest(&self, z: &[f64], constant: f64, remainder: f64) -> f64 {
-        let mut b = [constant; TERMS];
-        for (row, z) in self.hull.iter().zip(z) {
-            add(&mut b, *z, row);
-        }
-        // the ninth power has a part in the last coefficient of Bernstein's form only
-        b[ORDER] -= remainder;
-        let less = |one: f64, other: f64| if one < other { one } else { other };
-        // in pairs: no comparison waits for more than four others
-        let half = [less(b[0], b[5]), less(b[1], b[6]), less(b[2], b[7]), less(b[3], b[8]), less(b[4], b[9])];
-        less(less(less(half[0], half[1]), less(half[2], half[3])), half[4])
+        Self { rows, weights, constant, faint: lost }
     }
 
     /// The coefficients at a state, without the remainder, which is in the last place of none.
@@ -346,39 +276,15 @@ impl GuardSeries {
         p
     }
 
-    /// The coefficients of all powers at a state.
-    pub(crate) fn all(&self, z: &[f64]) -> [f64; ALL] {
-        let mut all = [0.0; ALL];
-        all[..TERMS].copy_from_slice(&self.at(z));
-        let mut tail = [0.0; TAIL];
-        for (row, z) in self.tail.iter().zip(z) {
-            add(&mut tail, *z, row);
-        }
-        all[ORDER..].copy_from_slice(&tail);
-        all
-    }
-
     /// The size of the terms of a coefficient.
     pub(crate) fn size(&self, z: &[f64], order: usize) -> f64 {
         self.rows.iter().zip(z).map(|(row, z)| (row[order] * z).abs()).sum()
     }
 
-    /// A bound of the remainder over the window, and of the rounding errors of the value at a state that has passed `windows`
-    /// windows in a time `time`; for the energies and the largest speeds of the modes.
-    pub(crate) fn bounds(&self, energies: &[(f64, f64)], z: &[f64], windows: f64, time: f64) -> (f64, f64) {
-        let (mut remainder, mut size) = (self.constant, self.swing);
-        for ((weight, (energy, speed)), z) in self.weights.iter().zip(energies).zip(z.chunks_exact(3)) {
-            let push = z[2].abs();
-            remainder += weight.energy * energy + weight.push * push;
-            size += weight.size_of_energy * energy + weight.size_of_speed * speed + weight.size_of_push * push;
-        }
-        // a free body: it moves on with its speed, which the force increases
-        for (i, a, b) in &self.loose {
-            let z = &z[3 * i..];
-            size += a * (z[0].abs() + time * (z[1].abs() + time * z[2].abs())) + b * (z[1].abs() + time * z[2].abs());
-        }
-        // each window that has passed adds its rounding errors
-        (remainder, 32.0 * f64::EPSILON * (windows + 1.0) * size)
+    /// A bound of the remainder over the window, for the energies of the modes.
+    pub(crate) fn remainder(&self, energies: &[f64], z: &[f64]) -> f64 {
+        let modes = self.weights.iter().zip(energies).zip(z.chunks_exact(3));
+        self.constant + modes.map(|((weight, energy), z)| weight.0 * energy + weight.1 * z[2].abs()).sum::<f64>()
     }
 
     /// By how much fast decays can lower the guard within a window of this length, if they have no part in its first $`n`$
@@ -397,9 +303,11 @@ impl GuardSeries {
         lost.sum()
     }
 
-    /// How far the free parts of faint modes can lower the guard.
-    pub(crate) fn lowered(&self, energies: &[f64]) -> f64 {
-        self.faint.iter().zip(energies).map(|(factor, energy)| factor * energy).sum()
+    /// By how much the guard can fall because of the free parts of modes that are faint altogether, from where it is.
+    pub(crate) fn lowered_by_modes(&self, faint: &[Faint], z: &[f64]) -> f64 {
+        let modes = self.faint.iter().zip(faint).filter(|(_, faint)| faint.decays.is_none());
+        // from one end of their range to the other
+        2.0 * modes.map(|(factor, faint)| factor * faint.energy(z)).sum::<f64>()
     }
 }
 
@@ -525,6 +433,7 @@ pub(crate) fn derivative_bounds(mode: &Mode, window: f64, energy: f64, push: f64
 
 #[cfg(test)]
 mod tests {
+    use super::super::pass::Pass;
     use super::*;
     use crate::regime::Signal;
 
@@ -549,11 +458,11 @@ mod tests {
         // at first, and after the fast decay
         for k in 0..12 {
             let mut end = z.clone();
-            long.pass(&mut end);
+            Pass::new(of, long.length).pass(&mut end);
             let value = all[0].guards[0].at(&end)[0];
             let sum: f64 = long.guards[0].at(&z).iter().sum();
-            let lowered = long.guards[0].lowered(&[long.faint[0].energy(&z)]);
-            let at_end = long.guards[0].lowered(&[long.faint[0].energy(&end)]);
+            let [lowered, at_end] =
+                [&z, &end].map(|z| long.guards[0].lowered_by_decays(&long.faint, z, (0, long.length)));
             // the ninth power is left out
             assert!((sum - value).abs() <= at_end + 1e-4, "{k}: {sum} {value} {at_end}");
             assert!((long.guards[0].at(&z)[0] - all[0].guards[0].at(&z)[0]).abs() <= lowered * (1.0 + 1e-9) + 1e-12);
@@ -561,7 +470,7 @@ mod tests {
         }
     }
 
-    /// The series of a guard at one state, summed at the end of the window, is its value at the state there; and faint modes
+    /// The series of a guard at one state, summed at the end of the window, is its value at the state there but for its remainder; and faint modes
     /// lower it by no less than they move.
     #[test]
     fn the_series_and_the_passed_state_agree() {
@@ -592,13 +501,19 @@ mod tests {
         let exact = &all[0].guards[0];
         for _ in 0..40 {
             let mut end = begin.clone();
-            all[0].pass(&mut end);
-            let sum: f64 = exact.all(&begin).iter().sum();
-            let value = exact.all(&end)[0];
-            assert!((sum - value).abs() < 1e-13 * (1.0 + value.abs()), "{sum} {value}");
+            Pass::new(of, all[0].length).pass(&mut end);
+            let sum: f64 = exact.at(&begin).iter().sum();
+            let value = exact.at(&end)[0];
+            let energy = |(mode, z): (&Mode, &[f64])| {
+                let shifted = if mode.k > 0.0 { z[0] - z[2] / mode.k } else { 0.0 };
+                (z[1] * z[1] + mode.k * shifted * shifted).sqrt()
+            };
+            let energies: Vec<f64> = modes.iter().zip(begin.chunks_exact(3)).map(energy).collect();
+            let remainder = exact.remainder(&energies, &begin);
+            assert!((sum - value).abs() < remainder && remainder < 1e-3, "{sum} {value} {remainder}");
             // in the long window, the free part of the fast mode is within its bound
             let (long, rough) = (&all[1], &all[1].guards[0]);
-            let lowered = rough.lowered(&[long.faint[0].energy(&begin)]);
+            let lowered = 0.5 * rough.lowered_by_modes(&long.faint, &begin);
             assert!((rough.at(&begin)[0] - exact.at(&begin)[0]).abs() <= lowered * (1.0 + 1e-12), "{lowered}");
             begin = end;
         }

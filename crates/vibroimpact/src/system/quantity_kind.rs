@@ -57,68 +57,43 @@ impl QuantityKind {
         }
     }
 
+    /// The SI unit in text and in the name of a column, the nondimensional unit, and the SI unit in the notation of UDUNITS.
+    const fn units(self) -> [&'static str; 4] {
+        match self {
+            Self::Number => ["", "", "1", "1"],
+            Self::Length => ["m", "_m", "F/k", "m"],
+            Self::Velocity => ["m/s", "_m_per_s", "omega_n F/k", "m s-1"],
+            Self::Acceleration => ["m/s²", "_m_per_s2", "omega_n^2 F/k", "m s-2"],
+            Self::Force => ["N", "_n", "F", "N"],
+            Self::Impulse => ["N s", "_n_s", "m omega_n F/k", "N s"],
+            Self::Energy => ["J", "_j", "F^2/k", "J"],
+            Self::Power => ["W", "_w", "omega_n F^2/k", "W"],
+            Self::Rate => ["1/s", "_per_s", "omega_n", "s-1"],
+        }
+    }
+
     /// The SI unit, as in text; empty for a number.
     #[must_use]
     pub const fn unit(self) -> &'static str {
-        match self {
-            Self::Number => "",
-            Self::Length => "m",
-            Self::Velocity => "m/s",
-            Self::Acceleration => "m/s²",
-            Self::Force => "N",
-            Self::Impulse => "N s",
-            Self::Energy => "J",
-            Self::Power => "W",
-            Self::Rate => "1/s",
-        }
+        self.units()[0]
     }
 
     /// The SI unit at the end of the name of a column, such as `_m_per_s`; empty for a number.
     #[must_use]
     pub const fn suffix(self) -> &'static str {
-        match self {
-            Self::Number => "",
-            Self::Length => "_m",
-            Self::Velocity => "_m_per_s",
-            Self::Acceleration => "_m_per_s2",
-            Self::Force => "_n",
-            Self::Impulse => "_n_s",
-            Self::Energy => "_j",
-            Self::Power => "_w",
-            Self::Rate => "_per_s",
-        }
+        self.units()[1]
     }
 
     /// The nondimensional unit; `1` for a number.
     #[must_use]
     pub const fn nondimensional(self) -> &'static str {
-        match self {
-            Self::Number => "1",
-            Self::Length => "F/k",
-            Self::Velocity => "omega_n F/k",
-            Self::Acceleration => "omega_n^2 F/k",
-            Self::Force => "F",
-            Self::Impulse => "m omega_n F/k",
-            Self::Energy => "F^2/k",
-            Self::Power => "omega_n F^2/k",
-            Self::Rate => "omega_n",
-        }
+        self.units()[2]
     }
 
     /// The SI unit in the notation of UDUNITS; `1` for a number.
     #[must_use]
     pub const fn udunits(self) -> &'static str {
-        match self {
-            Self::Number => "1",
-            Self::Length => "m",
-            Self::Velocity => "m s-1",
-            Self::Acceleration => "m s-2",
-            Self::Force => "N",
-            Self::Impulse => "N s",
-            Self::Energy => "J",
-            Self::Power => "W",
-            Self::Rate => "s-1",
-        }
+        self.units()[3]
     }
 }
 

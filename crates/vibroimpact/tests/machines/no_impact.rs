@@ -1,6 +1,6 @@
 //! Motions without a further event, for ever: the steady part of each gap stays open, though the sum of its amplitudes does not.
 
-use vibroimpact::events::Start;
+use vibroimpact::events::{Limits, Motion, Start};
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::verdict::{SettleOptions, settle_machine};
 
@@ -144,4 +144,23 @@ fn undamped_modes() {
     let start = Start { q: vec![0.65], ..Start::default() };
     assert_eq!(label(parts(0.4), &start), "0");
     assert_ne!(label(parts(0.33), &start), "0");
+}
+
+/// 4. A harmonic without an amplitude has no effect, however fast it is: not on the steps of the search either.
+#[test]
+fn a_harmonic_without_an_amplitude_drives_nothing() {
+    let events = |frequency: f64, order| {
+        let spring = StopLaw::Compliant { stiffness: 1.0, damping: 0.0, preload: 0.0, opening: Opening::Force };
+        let mut parts = MachineParts::new(["x"]).with_mass(0, 2.3).with_stop("s", &[1.0], -0.2, spring);
+        parts = parts.with_frequency(frequency).with_force(0, order, 0.0, 0.0);
+        parts.stops[0].motion.push(HarmonicMotion { order: 2, cos: 0.0, sin: 0.0 });
+        let machine = Machine::new(parts).unwrap();
+        let motion = Motion::new(&machine, &Start::default(), Limits::default()).unwrap();
+        motion.take(3).map(|event| event.time.to_bits()).collect::<Vec<_>>()
+    };
+    let slow = events(1.0, 1);
+    assert_eq!(slow.len(), 1, "the body leaves the spring and flies on");
+    for frequency in [1e-100, 1e6, 1e100] {
+        assert_eq!(events(frequency, 3), slow, "{frequency}");
+    }
 }

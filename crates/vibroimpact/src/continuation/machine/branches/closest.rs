@@ -38,7 +38,7 @@ pub(crate) fn closest(
     if time <= 0.0 {
         return None;
     }
-    let fastest = structure.fastest().max(structure.rates.last().copied().unwrap_or(0.0));
+    let fastest = structure.fastest();
     let parts = (PARTS * time * fastest).clamp(LIMITS.0, LIMITS.1).ceil();
     let part = time / parts;
     let mut early: Vec<f64> = core::iter::successors(Some(part), |s| Some(s / SHORTER)).take(EARLY).collect();
