@@ -390,7 +390,7 @@ fn f42ab_friction_at_its_limit_beside_a_contact() {
     assert_eq!(events.len(), 200);
     let part = events.iter().find(|event| event.time > 3.0).unwrap();
     assert_eq!((part.kind, part.place), (EventKind::Release, 0));
-    assert!((part.time - 7.0 * core::f64::consts::PI / 6.0 / 1.1).abs() < 1e-14, "{}", part.time);
+    assert!((part.time - 7.0 * PI / 6.0 / 1.1).abs() < 1e-14, "{}", part.time);
     for event in &events {
         assert!((event.q[0] + event.q[1]).abs() < 1e-14 && (event.qdot[0] + event.qdot[1]).abs() < 1e-14, "{event:?}");
     }
