@@ -102,6 +102,8 @@ pub(crate) struct Modes {
 /// bodies in contact within them. Nearly always the first few do.
 pub(crate) const ORDERS: usize = 18;
 pub(crate) const FIRST_ORDERS: usize = 4;
+/// Instead of the number of derivatives that are zero, of a guard that is identically zero: it is no guard in this flight.
+pub(crate) const IDLE: usize = ORDERS + 1;
 /// What is below this part of the terms that it is a sum of is zero within rounding errors.
 const SILENT: f64 = 1e-12;
 const HALF_ULP: f64 = 0.5 * f64::EPSILON;
@@ -219,8 +221,13 @@ impl MachineFlight {
                 let is_force = matches!(guard.kind, GuardKind::Force(_));
                 sum = if is_force { preload + stiffness * depth - damping * rate() } else { depth };
             }
-            // a guard on which the flight begins is exactly zero: a rounding error would be an event at once
-            let value = if known > 0 { 0.0 } else { sum };
+            // a guard on which the flight begins is exactly zero: a rounding error would be an event at once; one that stays zero is
+            // kept away from it
+            let (value, known) = match known {
+                0 => (sum, 0),
+                IDLE => (size + 1.0, 0),
+                _ => (0.0, known),
+            };
             self.guards.push(GuardStart { value, size, constant: value - moving, known, sharp, recovery });
         }
         let drive = &mut self.drive;
@@ -644,7 +651,17 @@ impl MachineFlight {
 
     /// Whether the reaction of a constraint is zero for the whole flight, within rounding errors of the forces on the machine.
     pub(crate) fn presses_never(&self, normal: &Normal, held: usize) -> bool {
-        let reaction = &self.structure.reactions[held];
+        self.first(&self.structure.reactions[held]).0.abs() <= self.silence(normal, held)
+            && self.presses_evenly(normal, held)
+    }
+
+    /// Whether it keeps its value for the whole flight.
+    pub(crate) fn presses_evenly(&self, normal: &Normal, held: usize) -> bool {
+        self.change_size(&self.structure.reactions[held]) <= self.silence(normal, held)
+    }
+
+    /// The rounding error of a reaction.
+    fn silence(&self, normal: &Normal, held: usize) -> f64 {
         // a bound of all forces on the machine in a radian of its fastest motion: what is small beside it is rounding
         let (x, v) = (dot(&self.x, &self.x).sqrt(), dot(&self.rate, &self.rate).sqrt());
         let time = self.shortest();
@@ -656,8 +673,7 @@ impl MachineFlight {
             + normal.stiffness.largest() * (x + moved)
             + normal.damping.largest() * (v + moved / time);
         let column = &self.structure.across[held];
-        let size = SILENT * forces * dot(column, column).sqrt();
-        self.first(reaction).0.abs() <= size && self.change_size(reaction) <= size
+        SILENT * forces * dot(column, column).sqrt()
     }
 
     /// Whether a gap keeps its value for the whole flight, within rounding errors of the motion.

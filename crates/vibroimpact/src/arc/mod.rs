@@ -35,7 +35,7 @@ mod steady;
 mod transition;
 mod zero;
 
-pub(crate) use flight::{Begin, FIRST_ORDERS, GapStart, MachineFlight, Modes, ORDERS, Recovery};
+pub(crate) use flight::{Begin, FIRST_ORDERS, GapStart, IDLE, MachineFlight, Modes, ORDERS, Recovery};
 pub(crate) use found::{Buffers, Found, Touch};
 pub(crate) use graded_flight::combined;
 pub(crate) use search::first_event;

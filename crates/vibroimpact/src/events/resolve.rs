@@ -11,7 +11,7 @@
 //! a third support of a bar has nothing to bear. It has no condition, so that rounding errors of zero decide nothing.
 
 use super::place::{Place, Structures};
-use crate::arc::{FIRST_ORDERS, MachineFlight, ORDERS};
+use crate::arc::{FIRST_ORDERS, IDLE, MachineFlight, ORDERS};
 use crate::machine::Machine;
 use crate::math::sort_by_key;
 use crate::regime::{ContactState, GuardKind, Normal, Observable, bearing, compliant};
@@ -150,9 +150,14 @@ impl Resolution<'_> {
             (order, (value < 0.0).then_some(Violation { order, amount: -value, instead }))
         };
         let mut limit = |kind: GuardKind, of: (usize, Option<Violation>)| {
-            // the force is at its limit now and leaves it later: a guard that begins at zero
+            // the force is at its limit now and leaves it later, a guard that begins at zero, or stays there
             if of.0 > 0 && of.0 < ORDERS {
                 limits.push((kind, of.0));
+            } else if of.0 == ORDERS {
+                let held = structure.held.iter().position(|held| *held == at);
+                if held.is_some_and(|held| flight.presses_evenly(self.normal, held)) {
+                    limits.push((kind, IDLE));
+                }
             }
             of
         };
@@ -307,7 +312,11 @@ impl Resolution<'_> {
                     }
                 }
                 ContactState::Forward | ContactState::Backward => {
-                    known.push((GuardKind::Sliding(*at - stops), order));
+                    let joint = *at - stops;
+                    let sliding = trial.flight.structure.sliding(self.machine, self.normal, joint);
+                    // one that others keep where it is pushes with its limit
+                    let stays = order == ORDERS && trial.flight.slides_never(self.normal, (*at, &sliding));
+                    known.push((GuardKind::Sliding(joint), if stays { IDLE } else { order }));
                 }
                 ContactState::Touching | ContactState::Holding => {}
             }

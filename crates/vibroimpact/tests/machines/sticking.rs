@@ -6,7 +6,7 @@ use vibroimpact::continuation::{
     BranchError, BranchOptions, CurveEvent, CurveKind, CurveOptions, Direction,
     machine::{Branch, BranchEvent, Curve, CurvePoint, Family, Plane, SolutionPoint},
 };
-use vibroimpact::events::Start;
+use vibroimpact::events::{EventKind, Limits, Motion, Start};
 use vibroimpact::machine::{Machine, MachineParts};
 use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
@@ -366,5 +366,32 @@ fn small_restitutions() {
         let start = Start { q: vec![gamma + 0.1], qdot: vec![0.0], phase: 0.0, ..Start::default() };
         let cycle = settled(&ball(gamma, e), &start);
         assert_eq!(cycle.label.to_string(), "inf/1", "{gamma} {e}");
+    }
+}
+
+/// Two bodies that hold by friction and touch are pushed together: when both joints reach their limits, one is at its limit for
+/// good and the other does not slide although its force is at its limit, because the contact holds it. Neither is an event. The bodies
+/// part when they are pulled apart with more than the limit, and their motion stays symmetric. The search had no end.
+#[test]
+fn f42ab_friction_at_its_limit_beside_a_contact() {
+    let parts = MachineParts::new(["a", "b"])
+        .with_mass(0, 1.0)
+        .with_mass(1, 1.0)
+        .with_link(&[1.0, 0.0], 1.0, 0.02)
+        .with_link(&[0.0, 1.0], 1.0, 0.02)
+        .with_frequency(1.1)
+        .with_force(0, 1, 0.0, 0.6)
+        .with_force(1, 1, 0.0, -0.6)
+        .with_rigid_stop("c", &[1.0, -1.0], 0.0, 0.3)
+        .with_joint("ja", &[1.0, 0.0], 0.3, 0.3, 0.0)
+        .with_joint("jb", &[0.0, 1.0], 0.3, 0.3, 0.0);
+    let machine = Machine::new(parts).unwrap();
+    let events: Vec<_> = Motion::new(&machine, &Start::default(), Limits::default()).unwrap().take(200).collect();
+    assert_eq!(events.len(), 200);
+    let part = events.iter().find(|event| event.time > 3.0).unwrap();
+    assert_eq!((part.kind, part.place), (EventKind::Release, 0));
+    assert!((part.time - 7.0 * PI / 6.0 / 1.1).abs() < 1e-14, "{}", part.time);
+    for event in &events {
+        assert!((event.q[0] + event.q[1]).abs() < 1e-14 && (event.qdot[0] + event.qdot[1]).abs() < 1e-14, "{event:?}");
     }
 }
