@@ -12,24 +12,40 @@ fn long() -> bool {
     std::env::var("VIBROIMPACT_LONG").is_ok()
 }
 
+/// What is wrong with this number of machines of each family, which the threads check one after another; told as it is found.
+fn in_threads(seeds: u64, check: impl Fn(&Case) -> Vec<String> + Sync) -> Vec<String> {
+    let cases: Vec<Case> = (0..seeds).flat_map(|seed| FAMILIES.iter().map(move |family| family.case(seed))).collect();
+    let next = AtomicUsize::new(0);
+    let work = || -> Vec<String> {
+        let cases = core::iter::from_fn(|| cases.get(next.fetch_add(1, Ordering::Relaxed)));
+        let told = |case| check(case).into_iter().inspect(|wrong| println!("{wrong}")).collect::<Vec<_>>();
+        cases.flat_map(told).collect()
+    };
+    let threads = std::thread::available_parallelism().map_or(1, Into::into);
+    std::thread::scope(|scope| {
+        let all: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        all.into_iter().flat_map(|one| one.join().unwrap()).collect()
+    })
+}
+
 /// Everyday two machines of each family, written in all ways; with `VIBROIMPACT_LONG=1` 60, more than a thousand together.
 #[test]
 fn events_do_not_depend_on_names_order_units_and_signs() {
     let budget = Budget { stretches: 40, time: 25.0 };
-    let (mut instants, mut wrong) = (0, Vec::new());
-    for family in FAMILIES {
-        for seed in 0..if long() { 60 } else { 2 } {
-            let case = family.case(seed);
-            let standard = Standard::new(&case, budget);
-            for change in Rewriting::ALL {
-                match standard.same_written(&case, change, budget) {
-                    Ok(count) => instants += count,
-                    Err(what) => wrong.push(format!("{} {seed} {what}", family.name)),
-                }
+    let instants = AtomicUsize::new(0);
+    let wrong = in_threads(if long() { 60 } else { 2 }, |case| {
+        let standard = Standard::new(case, budget);
+        let compared = Rewriting::ALL.map(|change| standard.same_written(case, change, budget));
+        let what = |compared| match compared {
+            Ok(count) => {
+                instants.fetch_add(count, Ordering::Relaxed);
+                None
             }
-        }
-    }
-    println!("{instants} instants compared");
+            Err(what) => Some(format!("{} {} {what}", case.family, case.seed)),
+        };
+        compared.into_iter().filter_map(what).collect()
+    });
+    println!("{} instants compared", instants.load(Ordering::Relaxed));
     assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
 }
 
@@ -131,18 +147,7 @@ const LONGER: u32 = 4;
 #[test]
 fn verdicts_do_not_depend_on_names_order_units_and_signs() {
     let options = SettleOptions::at_most(if long() { 4000 } else { 1000 });
-    let seeds = if long() { 60 } else { 1 };
-    let cases: Vec<Case> = (0..seeds).flat_map(|seed| FAMILIES.iter().map(move |family| family.case(seed))).collect();
-    let next = AtomicUsize::new(0);
-    let work = || -> Vec<String> {
-        let cases = core::iter::from_fn(|| cases.get(next.fetch_add(1, Ordering::Relaxed)));
-        cases.flat_map(|case| differences(case, &options)).collect()
-    };
-    let threads = std::thread::available_parallelism().map_or(1, Into::into);
-    let wrong: Vec<String> = std::thread::scope(|scope| {
-        let all: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        all.into_iter().flat_map(|one| one.join().unwrap()).collect()
-    });
+    let wrong = in_threads(if long() { 60 } else { 1 }, |case| differences(case, &options));
     assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
 }
 

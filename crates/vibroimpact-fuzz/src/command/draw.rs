@@ -337,7 +337,7 @@ mod tests {
     fn many_lines_are_read() {
         let lines = lines();
         let mut read: BTreeMap<String, [usize; 2]> = BTreeMap::new();
-        for k in 0..4000 {
+        for k in 0..1500 {
             let words = lines.new_tree(&mut runner(1, "commands", k)).unwrap().current();
             let parsed = PARSER.clone().try_get_matches_from([&["vibro".to_owned()][..], &words].concat()).is_ok();
             let of = read.entry(words[0].clone()).or_default();
