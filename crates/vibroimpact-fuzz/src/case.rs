@@ -58,18 +58,18 @@ pub fn runner(seed: u64, family: &str, k: u64) -> TestRunner {
     TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &bytes))
 }
 
-/// Draws a case and checks it. `begun` is called with the case before the check. A case with a `known` kind of fault is
+/// Draws a case from the strategy of the property and checks it. `begun` is called with the case before the check. A case with a `known` kind of fault is
 /// not reduced.
 ///
 /// # Errors
 /// The [`Fault`] that was found.
 pub fn run<P: Property>(
     property: &mut P,
-    mut runner: TestRunner,
+    (strategy, mut runner): (&BoxedStrategy<P::Case>, TestRunner),
     known: &mut BTreeSet<String>,
     begun: impl FnOnce(&str),
 ) -> Result<(), Fault> {
-    let drawn = property.strategy().new_tree(&mut runner);
+    let drawn = strategy.new_tree(&mut runner);
     let mut tree = drawn.map_err(|why| Fault { why: format!("no case can be drawn: {why}"), case: String::new() })?;
     let case = tree.current();
     begun(&property.describe(&case));
@@ -145,7 +145,9 @@ mod tests {
     fn a_fault_is_found_and_made_smaller() {
         keep_panics();
         let found = (0..20)
-            .filter_map(|k| run(&mut Small, runner(1, "small", k), &mut BTreeSet::new(), |_| {}).err())
+            .filter_map(|k| {
+                run(&mut Small, (&Small.strategy(), runner(1, "small", k)), &mut BTreeSet::new(), |_| {}).err()
+            })
             .collect::<Vec<_>>();
         let _ = std::panic::take_hook();
         assert!(found.len() > 15, "{found:?}");

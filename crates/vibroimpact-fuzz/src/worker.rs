@@ -70,14 +70,16 @@ pub fn work(task: &Job, out: &mut impl Write) -> io::Result<()> {
 fn all<P: Property>(property: &mut P, task: &Job, out: &mut impl Write) -> io::Result<()> {
     let end = Instant::now() + Duration::from_secs_f64(task.seconds);
     let mut known = BTreeSet::new();
+    // once, because to name all that can be drawn takes longer than to draw a case
+    let strategy = property.strategy();
     for k in task.from..task.until {
         if Instant::now() >= end {
             break;
         }
         let mut told = Ok(());
-        let runner = case::runner(task.seed, task.family.name(), k);
+        let from = (&strategy, case::runner(task.seed, task.family.name(), k));
         let found =
-            case::run(property, runner, &mut known, |case| told = tell(out, &json!({ "begin": k, "case": case })));
+            case::run(property, from, &mut known, |case| told = tell(out, &json!({ "begin": k, "case": case })));
         told?;
         match found {
             Ok(()) => tell(out, &json!({ "end": k }))?,
