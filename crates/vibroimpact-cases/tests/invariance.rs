@@ -1,5 +1,6 @@
 //! Events and verdicts do not depend on how a machine is written.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+#![allow(clippy::print_stdout, reason = "what is wrong is told as it is found: a long run takes minutes")]
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use vibroimpact::events::Start;
