@@ -1,7 +1,8 @@
 //! One step of a motion: a flight in one regime, and what ended it.
 
-use super::place::Place;
-use crate::regime::Structure;
+use super::place::{Place, Structures};
+use crate::machine::Machine;
+use crate::regime::{Normal, Structure};
 use std::sync::Arc;
 
 /// What a rigid stop does at an impact.
@@ -56,5 +57,19 @@ impl Passage {
     /// The time from the beginning of the step to its end.
     pub(crate) fn time(&self) -> f64 {
         self.duration + self.rest.as_ref().map_or(0.0, |(_, time)| *time)
+    }
+
+    /// The structure that begins beyond the event, which leaves this state; `None` if there is no such structure.
+    pub(super) fn beyond(
+        &self,
+        after: &Place,
+        machine: &Machine,
+        normal: &Normal,
+        structures: &mut Structures,
+    ) -> Option<Arc<Structure>> {
+        match &self.rest {
+            Some((rest, _)) => Some(rest.clone()),
+            None => structures.get(machine, normal, &after.states),
+        }
     }
 }

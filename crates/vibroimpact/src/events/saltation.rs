@@ -216,10 +216,7 @@ impl LinearEvent {
         passage: &Passage,
     ) -> Option<Self> {
         let (before, after) = (passage.before.as_ref()?, passage.after.as_ref()?);
-        let next = match &passage.rest {
-            Some((rest, _)) => rest.clone(),
-            None => structures.get(machine, normal, &after.states)?,
-        };
+        let next = passage.beyond(after, machine, normal, structures)?;
         let law = EventLaw {
             structure: &passage.structure,
             guards: &passage.guards,
@@ -542,11 +539,7 @@ impl EventDerivative {
         structures: &mut Structures,
         passage: &Passage,
     ) -> Option<Self> {
-        let after = passage.after.as_ref()?;
-        let rest = match &passage.rest {
-            Some((rest, _)) => rest.clone(),
-            None => structures.get(machine, normal, &after.states)?,
-        };
+        let rest = passage.beyond(passage.after.as_ref()?, machine, normal, structures)?;
         if let Some(reset) = at_rest(shape, normal, passage, &rest) {
             return Some(Self { reset, late: Vec::new() });
         }
