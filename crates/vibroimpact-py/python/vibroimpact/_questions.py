@@ -27,11 +27,11 @@ from vibroimpact._whole import SEED, STARTS, whole
 
 
 def _events(system, task):
-    return task.get("impacts") or (1 if "periods" in task else 100)
+    return task.get("impacts") or (1 if {"periods", "time"} & task.keys() else 100)
 
 
 @question(Simulation, "simulate", START, "events", total=_events)
-def simulate(system, *, impacts=None, periods=None):
+def simulate(system, *, impacts=None, periods=None, time=None):
     """Follow a motion event by event: impacts, grazing contacts, sticking and release, contact and slip.
 
     Parameters
@@ -39,9 +39,11 @@ def simulate(system, *, impacts=None, periods=None):
     {system}
     {start}
     impacts : int
-        Stop after this number of impacts, of a machine of events, 1 to 1e7. Default: 100, or 1e6 with `periods`.
+        Stop after this number of impacts, of a machine of events, 1 to 1e7. Default: 100, or 1e6 with `periods` or `time`.
     periods : float
         Stop after this number of forcing periods, up to 1e9.
+    time : float
+        Stop at this time, up to 1e10; of an oscillator in units of 1/omega_n.
     {progress}
 
     Examples
@@ -60,7 +62,7 @@ def simulate(system, *, impacts=None, periods=None):
     >>> float(wave.force[:, 0].max().round())          # 9950.37 N in closed form
     9950.0
     """
-    return {"impacts": impacts, "periods": periods}
+    return {"impacts": impacts, "periods": periods, "time": time}
 
 
 @question(Settled, "settle", START, "motions")
