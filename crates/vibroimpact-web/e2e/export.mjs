@@ -61,7 +61,7 @@ export async function f10_panels_export_what_they_show({ open }) {
   const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75", { acceptDownloads: true });
   await until("the panels are drawn", async () => (await pictures(page)) >= 4);
   for (const [panel, view, python, head] of [
-    ["phase portrait", "phase", "motion.waveform()", "time,x,v"],
+    ["phase portrait", "phase", "motion.waveform()", "time,x,v,phase"],
     ["multipliers", "multipliers", "motion.multipliers", "re,im"],
     ["impact map and stroboscopic section", "sections", "vi.lyapunov(osc, x=0, points=2000).plot_sections()", "section,stop,phase,speed,x,v"],
   ]) {
