@@ -113,7 +113,7 @@ def questions() -> Iterator[tuple[str, Any]]:
 
 def text() -> str:
     """The stub."""
-    known = tasks(json.loads(_core.plan_schema()))
+    known = tasks(json.loads(_core.schema()))
     results = {(of.returns.__module__, of.returns.__name__) for _, of in questions() if of.returns is not None}
     own = {("vibroimpact._ask", "System"), ("vibroimpact._axis", "Axis, Interval"), ("vibroimpact._progress", "Progress")}
     imports = "\n".join(f"from {module} import {names}" for module, names in sorted(results | own))

@@ -45,8 +45,7 @@ mod _core {
     use crate::palette::{look_of, palette};
     #[pymodule_export]
     use crate::plan::{
-        body_parameters, checked_plan, coordinate_words, fixed_coordinates, plan_schema, point_coordinates,
-        scales_of_points,
+        body_parameters, checked_plan, coordinate_words, fixed_coordinates, point_coordinates, scales_of_points, schema,
     };
     #[pymodule_export]
     use crate::points::{drawn_points, settle_points};

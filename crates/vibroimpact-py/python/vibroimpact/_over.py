@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from vibroimpact._ask import State
 from vibroimpact._axis import numbers
 from vibroimpact._core import QuestionError
-from vibroimpact._events import names_of
+from vibroimpact._motion import names_of
 from vibroimpact._machine import Machine
 from vibroimpact._oscillator import Oscillator
 

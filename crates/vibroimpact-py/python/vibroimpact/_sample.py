@@ -44,8 +44,6 @@ class Sample(Mapping[str, NDArray[np.float64]]):
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Sample) and self._drawn == other._drawn
 
-    __hash__ = None  # type: ignore[assignment]
-
     def to_dict(self) -> dict[str, Any]:
         """How they are drawn, as in a plan."""
         fields: dict[str, Any] = json.loads(json.dumps(self._drawn))

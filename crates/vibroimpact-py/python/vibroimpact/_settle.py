@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import json
 from collections.abc import Sequence
 from os import PathLike
@@ -13,96 +12,18 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core
 from vibroimpact._ask import System
-from vibroimpact._attractors import Attractors
 from vibroimpact._axis import numbers
 from vibroimpact._machine import Machine
-from vibroimpact._motion import Motion, all_measured
+from vibroimpact._motion import Settlement
 from vibroimpact._oscillator import Oscillator
 from vibroimpact._over import Points
 from vibroimpact._progress import Progress, watched
-from vibroimpact._result import Made
 from vibroimpact._sample import Sample
 from vibroimpact._whole import BUDGET, maybe, threads_of
 
 if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
-
-
-class Settled(Motion):
-    """What a motion settles into: a `Motion`, and how far it was followed.
-
-    Attributes
-    ----------
-    events_followed : int
-        The number of events (of an oscillator: impacts) that were followed.
-    time_followed : float
-        The time that was followed.
-    chaotic_transient : dict or None
-        Chaos before the motion settled: "exponents", a tuple of Measured, and of an oscillator "events", the number of the impact by
-        which it had ended.
-    harmonics : list of dict
-        The spectrum of the position of a cycle of an oscillator: "order", "amplitude", "phase".
-    transient : dict or None
-        The way of an oscillator from the start until it had settled: "events", "time", "quantities".
-    plan : str
-        The plan as JSON.
-    """
-
-    _object: Made[dict[str, Any]] = Made(lambda of: of._read(of._answer))
-    _of: Made[dict[str, Any]] = Made(lambda of: of._object["motion"])
-    motion: Made[Motion] = Made(lambda of: Motion(of._of, of.system))
-    events_followed: Made[int] = Made(lambda of: of._object["events_followed"])
-    time_followed: Made[float] = Made(lambda of: of._object["time_followed"])
-    chaotic_transient: Made[dict[str, Any] | None] = Made(lambda of: _chaos(of._object.get("chaotic_transient")))
-    harmonics: Made[list[dict[str, float]]] = Made(lambda of: of._complete.get("harmonics", []))
-    transient: Made[dict[str, Any] | None] = Made(lambda of: of._complete.get("transient"))
-    # the object that the command prints: its harmonics and transient take another settling
-    _complete: Made[dict[str, Any]] = Made(lambda of: json.loads(of._whole.json(False)))
-
-    @property
-    def plan(self) -> str:
-        """The plan as JSON."""
-        return json.dumps(self._object["plan"])
-
-    def to_dict(self) -> dict[str, Any]:
-        """The object that the command prints with --json."""
-        return copy.deepcopy(self._complete)
-
-
-def _chaos(of: dict[str, Any] | None) -> dict[str, Any] | None:
-    return None if of is None else {**of, "exponents": all_measured(of["exponents"])}
-
-
-class Settlement(Attractors):
-    """The motions to which many starts lead, in the order of their first start, with their shares.
-
-    Attributes
-    ----------
-    system : Oscillator
-        The system.
-    motions : list of Attractor
-        The motions.
-    cells : ndarray of uint32
-        The motion of each start as an index into `motions`, in the shape of the starts.
-    labels : ndarray of str
-        The label of the motion of each start, in the shape of the starts.
-    """
-
-    cells: NDArray[np.uint32]
-
-    def __repr__(self) -> str:
-        return f"<Settlement of {self.cells.size} starts: {', '.join(m.label for m in self)}>"
-
-    def to_dict(self) -> dict[str, Any]:
-        """The motions as in the JSON of the command, and the number of the motion of each start."""
-        return {"motions": [motion.to_dict() for motion in self], "cells": self.cells.tolist()}
-
-    def _figure(self, **shown: Any) -> dict[str, Any]:
-        found: dict[str, Any] = json.loads(_core.shares_figure(self.system._file, [(motion.label, motion.share) for motion in self]))
-        return found
-
-    labels: Made[NDArray[np.str_]] = Made(lambda of: np.array([motion.label for motion in of], dtype=np.str_)[of.cells])
 
 
 @overload

@@ -11,7 +11,7 @@ from vibroimpact import _core, _over
 from vibroimpact._ask import State, System
 from vibroimpact._axis import numbers
 from vibroimpact._core import QuestionError
-from vibroimpact._events import names_of
+from vibroimpact._motion import names_of
 from vibroimpact._machine import Machine
 from vibroimpact._over import MachineOver, Over, Points
 from vibroimpact._progress import Progress, watched
