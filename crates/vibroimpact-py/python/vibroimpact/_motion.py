@@ -207,11 +207,11 @@ class Waveform(Result):
 
 def waveform(system: Any, start: Any, until: float, step: float | None, events: bool) -> Waveform:
     """The motion from a start, as the compiled module takes it, until a time."""
-    if step is None:
-        step = system.period / _PER_PERIOD if system.period is not None else until / _WHOLE or 1.0
+    usual = until / _WHOLE or 1.0 if system.period is None else system.period / _PER_PERIOD
+    asked = (start, until, usual if step is None else float(step), events)
     if not isinstance(system, Oscillator):
-        return Waveform(system=system, **_core.machine_waveform(system._file, start, until, float(step), events))
-    time, x, v = _core.waveform(system._file, start, until, float(step), events)
+        return Waveform(system=system, **_core.machine_waveform(system._file, *asked))
+    time, x, v = _core.waveform(system._file, *asked)
     phase = (start[2] + system.beta * time) % (2 * math.pi)
     walls = [(system.gap, 1.0)] + ([] if system.second_gap is None else [(system.second_gap, -1.0)])
     gap = np.stack([at - side * x for at, side in walls], axis=1)

@@ -170,7 +170,7 @@ class View(Result):
         self.__dict__["_of"], self.system = of, system
 
     #: The object, and the rows of its columns.
-    _of: dict[str, Any]
+    _of: Made[dict[str, Any]]
     _rows: Made[list[dict[str, Any]]] = Made(lambda view: view._of.get("points", []))
 
     def __getattr__(self, name: str) -> Any:
