@@ -7,7 +7,7 @@ use serde_json::Value;
 use vibroimpact_cases::{Budget, Case, FAMILIES, faults};
 use vibroimpact_report::{Units, answer};
 use vibroimpact_study::machine::{MachineSource, no_files};
-use vibroimpact_study::{Control, Plan, Task};
+use vibroimpact_study::{Control, Plan, SimulatePlan, Task};
 
 /// The family of degenerate machines.
 #[derive(Clone, Copy, Debug)]
@@ -40,8 +40,8 @@ impl Property for Machines {
             return Err("its file is another machine".to_owned());
         }
         let simulate =
-            asked(&source, Task::Simulate { start: None, impacts: Some(EVENTS), periods: None }, "simulate")?;
-        ended(&case, simulate["end"].as_str().unwrap_or_default())?;
+            asked(&source, SimulatePlan { impacts: Some(EVENTS), ..SimulatePlan::default() }.into(), "simulate")?;
+        ended(&case, simulate["end"]["reason"].as_str().unwrap_or_default())?;
         asked(&source, Task::Settle { start: None, impacts: Some(SETTLED) }, "settle")?;
         Ok(())
     }

@@ -6,6 +6,7 @@ use crate::error::Trouble;
 use crate::events::{EventFields, Events, code};
 use crate::section::{Section, States, columns};
 use crate::simulate::checked_step;
+use crate::simulate::{Lengths, lengths};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use vibroimpact::events::{self, Event, Limits, Sample, Samples};
@@ -140,12 +141,13 @@ pub(crate) fn start(file: &MachineFile, (q, qdot, phase): Start) -> Result<event
 #[pyfunction]
 pub(crate) fn machine_state(py: Python<'_>, plan: &str, event: usize) -> Result<String, Trouble> {
     let plan = crate::plan::read(plan)?;
-    let (System::Machine(machine), Task::Simulate { periods, .. }) = (plan.system, plan.task) else {
+    let (System::Machine(machine), Task::Simulate(simulation)) = (plan.system, plan.task) else {
         return Err(Trouble::question("this is no plan that simulates a machine".to_owned()));
     };
     let (machine, start) = machine.problem()?;
     door::run(py, Watch::alone("following a machine"), move |control| {
-        let mut events = events_with_states(&machine, &start, periods)?.take_while(|_| !control.stopping());
+        let mut events = events_with_states(&machine, &start, simulation.until(machine.period()))?
+            .take_while(|_| !control.stopping());
         let state = events.nth(event).and_then(|event| event.state);
         let text = state.map(|state| StartText::of(&state, machine.parts()));
         // finite numbers and texts can always be written as JSON
@@ -287,15 +289,13 @@ pub(crate) fn simulate_machines<'py>(
     file: &MachineFile,
     numbers: Numbers,
     starts: Vec<Start>,
-    limits: (Option<u64>, Option<f64>),
+    limits: Lengths,
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> Result<ManyEventFields<'py>, Trouble> {
     let machine = file.0.machine()?;
     let found = each(py, file, (numbers, starts), (threads, progress), move |there, start, control| {
-        let plan =
-            Plan::new(there.starting(start), Task::Simulate { start: None, impacts: limits.0, periods: limits.1 });
-        match run(&plan, control)? {
+        match run(&Plan::new(there.starting(start), lengths(limits)), control)? {
             PlanResults::Machine(Results::Simulate(found)) => Ok(found),
             _ => Err(Trouble::Defect("following machines")),
         }

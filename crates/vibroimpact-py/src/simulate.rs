@@ -8,13 +8,21 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use vibroimpact::Start;
 use vibroimpact::motion::{Sample, sample, states_at};
-use vibroimpact_study::StartPlan;
+use vibroimpact_study::{SimulatePlan, StartPlan};
 
 /// Position, velocity and phase.
 pub(crate) type StartArgument = (Option<f64>, f64, f64);
 
 pub(crate) const fn start_plan((x, v, phase): StartArgument) -> StartPlan {
     StartPlan { x, v, phase }
+}
+
+/// Numbers of impacts and of forcing periods, and a time.
+pub(crate) type Lengths = (Option<u64>, Option<f64>, Option<f64>);
+
+/// The plan of a simulation up to these lengths.
+pub(crate) const fn lengths((impacts, periods, time): Lengths) -> SimulatePlan {
+    SimulatePlan { start: None, impacts, periods, time }
 }
 
 /// Maximum number of points of a waveform.

@@ -5,7 +5,7 @@ use crate::error::Trouble;
 use crate::oscillator::OscillatorFile;
 use crate::points::column;
 use crate::section::{Section, States, columns};
-use crate::simulate::{StartArgument, start_plan};
+use crate::simulate::{Lengths, StartArgument, lengths, start_plan};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use vibroimpact::motion::{Level, Strobes, states_at};
@@ -75,17 +75,18 @@ pub(crate) fn simulate_points<'py>(
     osc: OscillatorFile,
     over: Over<'py>,
     start: StartArgument,
-    limits: (Option<u64>, Option<f64>),
+    limits: Lengths,
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> Result<ManyFields<'py>, Trouble> {
     let Asked { points, system, start } = Asked::new(osc, &over, start)?;
     let watch = Watch { what: "following motions", total: points.count(), progress, threads };
-    let real = PyArray1::zeros(py, real_numbers(&points, limits), false);
+    let plan = lengths(limits);
+    let real = PyArray1::zeros(py, real_numbers(&points, &plan), false);
     let mut borrowed = real.readwrite();
     let memory = borrowed.as_slice_mut().map_err(|_| Trouble::Defect("borrowing new memory"))?;
     let found = door::run_borrowing(py, watch, move |control| {
-        Ok(vibroimpact_study::simulate_points(&points, (&system, &start), limits, memory, control)?)
+        Ok(vibroimpact_study::simulate_points(&points, (&system, &start), &plan, memory, control)?)
     })?;
     drop(borrowed);
     let EventColumns { room, width, kind, side, refitted, count, end, end_time } = found;

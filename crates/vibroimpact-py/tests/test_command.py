@@ -36,6 +36,7 @@ CALLS: list[tuple[str, str, Callable[[Any], Any]]] = [
     *((system, "lyapunov --impacts 5000", lambda of: vi.lyapunov(of, impacts=5000)) for system in (S, U, STUCK, HAMMER)),
     *((system, "margins --lines 20", lambda of: vi.margins(of, lines=20)) for system in (FLIPS, U, RESTING)),
     *((SLOW, f"orbit --label {label}", lambda of, label=label: vi.orbits(of, label)) for label in ("1/1", "2/1", "1/2", "inf/1")),
+    *((system, "simulate --time 25", lambda of: vi.simulate(of, time=25)) for system in (S, U, STUCK, HAMMER)),
     (S, "settle --v 0.5 --phase 1", lambda of: vi.settle(of, v=0.5, phase=1)),
     (HAMMER, "settle --q 0.1,0 --phase 1", lambda of: vi.settle(of, q=[0.1, 0], phase=1)),
     (HAMMER, "orbit --label 1/1", lambda of: vi.orbits(of, "1/1")),

@@ -8,7 +8,6 @@ use crate::limits::{self, MOST_STARTS, PLAN_VERSION, starts};
 use crate::machine::MachineSource;
 use crate::map::check_impacts;
 use crate::name::{Name, Variable};
-use crate::simulate::{check_lengths, most_impacts};
 use crate::{Axis, Parameter, PlanError, PointsPlan, RegionPlan, System, SystemPlan, Task, UnitsPlan};
 use serde::Serialize;
 
@@ -122,7 +121,7 @@ impl Plan {
     pub fn complete(&self) -> Result<Self, PlanError> {
         let mut plan = self.canonical()?;
         match &mut plan.task {
-            Task::Simulate { impacts, periods, .. } => *impacts = Some(most_impacts(*impacts, *periods)),
+            Task::Simulate(plan) => plan.impacts = Some(plan.most_impacts()),
             Task::Region(region) => {
                 if let System::Oscillator(system) = &mut plan.system {
                     let RegionPlan { across: p, up: q, .. } = region.typed::<Parameter>()?;
@@ -211,7 +210,7 @@ impl Task {
     fn check<D: Dynamics>(&self, system: &D) -> Result<(), PlanError> {
         let of = system.setup_of(self)?;
         match self {
-            Self::Simulate { impacts, periods, .. } => check_lengths(*impacts, *periods),
+            Self::Simulate(plan) => plan.check(),
             Self::Settle { impacts, .. } => check_impacts(*impacts),
             Self::Attractors { starts: given, impacts, .. } => starts(*given, MOST_STARTS).and(check_impacts(*impacts)),
             Self::Orbit { label } => of.check_orbit((Some(label), None), false),
@@ -234,7 +233,7 @@ fn over(axes: &[Axis<Variable>], between: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BasinPlan, Parameter, Stretch};
+    use crate::{BasinPlan, Parameter, SimulatePlan, Stretch};
 
     const SYSTEM: SystemPlan = SystemPlan {
         beta: None,
@@ -279,6 +278,10 @@ mod tests {
             (Task::Settle { start: None, impacts: Some(0) }, "impacts = 0 lies outside 1 <= impacts <= 1000000"),
             (Task::Attractors { starts: 1, seed: 0, impacts: Some(1_000_001) }, "impacts = 1000001"),
             (simulate(None, Some(f64::NAN)), "periods = NaN"),
+            (
+                Task::Simulate(SimulatePlan { time: Some(-1.0), ..SimulatePlan::default() }),
+                "time = -1 lies outside 0 < time <= 1e10",
+            ),
         ] {
             let message = Plan { task, ..plan() }.check().unwrap_err().to_string();
             assert!(message.starts_with(sentence), "{message}");
@@ -299,12 +302,10 @@ mod tests {
 
     #[test]
     fn a_plan_is_completed_as_the_command_writes_it() {
-        let Task::Simulate { impacts, .. } =
-            Plan { task: simulate(None, Some(3.0)), ..plan() }.complete().unwrap().task
-        else {
-            panic!("another task")
+        let complete = Plan { task: simulate(None, Some(3.0)), ..plan() }.complete().unwrap().task;
+        let Task::Simulate(SimulatePlan { impacts: Some(1_000_000), periods: Some(3.0), .. }) = complete else {
+            panic!("{complete:?}")
         };
-        assert_eq!(impacts, Some(1_000_000));
         let over = |parameter, from, to| Stretch { parameter, from, to };
         let (across, up) = (over(Parameter::Beta, 0.5, 0.6), over(Parameter::Gap, -1.0, 2.0));
         let region = Task::from(RegionPlan { label: "1/1".into(), across, up, grid: 3 });
@@ -316,6 +317,6 @@ mod tests {
     }
 
     fn simulate(impacts: Option<u64>, periods: Option<f64>) -> Task {
-        Task::Simulate { start: None, impacts, periods }
+        Task::Simulate(SimulatePlan { impacts, periods, ..SimulatePlan::default() })
     }
 }

@@ -410,6 +410,7 @@ impl PlanText {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::SimulatePlan;
     use crate::machine::CATALOGUE;
     use vibroimpact::events::Start;
 
@@ -472,7 +473,7 @@ mod tests {
             let source = entry.source().unwrap();
             let (n, path) = (source.parts().unwrap().n(), source.paths().unwrap().pop().unwrap());
             let changed = source.with(&path, source.number(&path).unwrap() * 1.25).unwrap();
-            let task = Task::Simulate { start: None, impacts: None, periods: Some(2.5) };
+            let task = Task::Simulate(SimulatePlan { periods: Some(2.5), ..SimulatePlan::default() });
             let start = Start { q: vec![0.1 + 0.2; n], qdot: vec![-1e-300; n], phase: 1.0, ..Start::default() };
             let plan = Plan::new(changed.starting(&start), task);
             let (toml, json) = (plan.to_toml(), serde_json::to_string(&plan).unwrap());
@@ -498,7 +499,7 @@ mod tests {
             (
                 "impacts",
                 "impact",
-                "task.simulate.impact: unknown field `impact`, expected one of `start`, `impacts`, `periods` (line 5, column 1)",
+                "task.simulate.impact: unknown field `impact`, expected one of `start`, `impacts`, `periods`, `time` (line 5, column 1)",
             ),
             ("[task.simulate]", "[task.settel]", "task.settel: unknown"),
             ("version = 1", "version = 2", "the plan has version 2"),

@@ -118,7 +118,7 @@ fn results<D: Dynamics>(system: &D, plan: &Plan, control: &Control<'_>) -> Resul
         return Err(Stopped { done: 0, total: plan.work().map_or(1, |(total, _)| total) }.into());
     }
     Ok(match &plan.task {
-        Task::Simulate { impacts, periods, .. } => Results::Simulate(D::simulate(&of, (*impacts, *periods), control)?),
+        Task::Simulate(plan) => Results::Simulate(D::simulate(&of, plan, control)?),
         Task::Settle { impacts, .. } => Results::Settle(D::settle(&of.system, &of.start, *impacts, &go_on)?),
         Task::Attractors { starts, seed, impacts } => {
             Results::Attractors(D::attractors(&of, (*starts, *seed), &options(*impacts), control)?)

@@ -2,7 +2,7 @@
 
 use crate::event_columns::{REAL_COLUMNS, Rows};
 use crate::simulate::{Bounds, SoFar};
-use crate::{Control, EventColumns, PlanError, PointsPlan, RunError, StartPlan, SystemPlan, tiles};
+use crate::{Control, EventColumns, PlanError, PointsPlan, RunError, SimulatePlan, StartPlan, SystemPlan, tiles};
 use std::sync::Mutex;
 use vibroimpact::lanes::Width;
 use vibroimpact::motion::{End, Event, EventRecorder, record_events};
@@ -18,17 +18,17 @@ const ROOM: u64 = 64;
 
 /// The number of real numbers for which [`simulate_points`] needs memory.
 #[must_use]
-pub fn real_numbers(points: &PointsPlan, limits: (Option<u64>, Option<f64>)) -> usize {
+pub fn real_numbers(points: &PointsPlan, plan: &SimulatePlan) -> usize {
     let rows = rows(points);
-    REAL_COLUMNS * rows * room(rows, limits)
+    REAL_COLUMNS * rows * room(rows, plan)
 }
 
 fn rows(points: &PointsPlan) -> usize {
     usize::try_from(points.count()).unwrap_or(usize::MAX)
 }
 
-/// Follows the motion at each point event by event, up to the given number of impacts and of forcing periods, as
-/// [`simulate`](crate::simulate()) does. The motions of one system are followed side by side. The [real numbers](REAL_COLUMNS) of the
+/// Follows the motion at each point event by event, up to the lengths of a plan, as [`simulate`](crate::simulate())
+/// does. The motions of one system are followed side by side. The [real numbers](REAL_COLUMNS) of the
 /// events are written to `real`, which has room for [so many](real_numbers), unless the columns are refitted.
 ///
 /// # Errors
@@ -39,16 +39,16 @@ fn rows(points: &PointsPlan) -> usize {
 pub fn simulate_points(
     points: &PointsPlan,
     (system, start): (&SystemPlan, &StartPlan),
-    limits: (Option<u64>, Option<f64>),
+    plan: &SimulatePlan,
     real: &mut [f64],
     control: &Control<'_>,
 ) -> Result<EventColumns, RunError> {
-    assert_eq!(real.len(), real_numbers(points, limits), "real numbers");
+    assert_eq!(real.len(), real_numbers(points, plan), "real numbers");
     points.check(system, start, |there, start| start.start(&there.oscillator()?).map(|_| ()))?;
     let one = if points.one_system() { Some(system.oscillator()?) } else { None };
     let tile = TILES[usize::from(one.is_none())];
     let total = rows(points);
-    let mut columns = EventColumns::open(total, room(total, limits));
+    let mut columns = EventColumns::open(total, room(total, plan));
     let parts: Vec<Mutex<Option<Rows<'_>>>> =
         columns.parts(real, tile).into_iter().map(|rows| Mutex::new(Some(rows))).collect();
     let aside = tiles(total as u64, tile as u64, control, |range, tick| {
@@ -59,11 +59,11 @@ pub fn simulate_points(
         if let Some(osc) = &one {
             let at = |k: usize| points.start_in((system, system), start, k).start(osc);
             let starts: Vec<Start> = (first..last).map(at).collect::<Result<_, PlanError>>()?;
-            part.record(0, osc, &starts, limits);
+            part.record(0, osc, &starts, plan);
         } else {
             for k in first..last {
                 let (osc, start) = points.problem(system, start, k)?;
-                part.record(k - first, &osc, &[start], limits);
+                part.record(k - first, &osc, &[start], plan);
                 if control.stopping() {
                     break;
                 }
@@ -77,9 +77,9 @@ pub fn simulate_points(
 }
 
 /// The number of events for which each row has room at first: most motions have one for each impact, and a few others.
-fn room(rows: usize, (impacts, periods): (Option<u64>, Option<f64>)) -> usize {
-    let impacts = impacts.map(|impacts| impacts.saturating_add(impacts / 16 + 4));
-    let wanted = impacts.unwrap_or(if periods.is_some() { ROOM } else { crate::simulate::most_impacts(None, None) });
+fn room(rows: usize, plan: &SimulatePlan) -> usize {
+    let impacts = plan.impacts.map(|impacts| impacts.saturating_add(impacts / 16 + 4));
+    let wanted = impacts.unwrap_or(if plan.limits_time() { ROOM } else { plan.most_impacts() });
     usize::try_from(wanted).unwrap_or(usize::MAX).min(MOST_CELLS / rows.max(1)).max(1)
 }
 
@@ -93,8 +93,8 @@ struct Part<'a> {
 
 impl Part<'_> {
     /// Follows the motions of one system into the rows from `first` on.
-    fn record(&mut self, first: usize, osc: &Oscillator, starts: &[Start], limits: (Option<u64>, Option<f64>)) {
-        let bounds = Bounds::new(osc, limits);
+    fn record(&mut self, first: usize, osc: &Oscillator, starts: &[Start], plan: &SimulatePlan) {
+        let bounds = Bounds::new(osc, plan);
         let search = bounds.search;
         record_events(osc, starts, search, Width::best(), &mut Motions { part: self, first, bounds });
     }
@@ -205,7 +205,11 @@ mod tests {
         let starts: &[Varied] = &[("x", |u| -0.6 - 3.0 * u), ("v", |u| 4.0 * u - 2.0), ("phase", |u| 9.0 * u)];
         let various: &[Varied] = &[("inverse_beta", |u| 0.4 + 2.0 * u), ("gap", |u| 3.0 * u - 0.5), ("v", |u| u)];
         let mut reasons = [0; END_REASONS.len()];
-        let limits = [(Some(40), None), (None, Some(12.5)), (None, Some(70.0)), (Some(3), Some(20.0)), (None, None)];
+        let (none, impacts) =
+            (SimulatePlan::default(), |n| SimulatePlan { impacts: Some(n), ..SimulatePlan::default() });
+        let periods = |n| SimulatePlan { periods: Some(n), ..none };
+        let both = SimulatePlan { time: Some(60.0), ..periods(20.0) };
+        let plans = [impacts(40), periods(12.5), periods(70.0), SimulatePlan { impacts: Some(3), ..both }, none];
         for (over, x, system) in [
             (starts, None, system(1.8, 0.25, 0.5, 0.0)),
             (starts, None, system(1.11, -0.5, 0.5, 0.0)),
@@ -217,10 +221,10 @@ mod tests {
         ] {
             let points = listed(over, 530);
             let start = StartPlan { x, ..StartPlan::default() };
-            for (k, limits) in limits.into_iter().enumerate() {
+            for (k, plan) in plans.iter().enumerate() {
                 let alone = |k| {
                     let (osc, start) = points.problem(&system, &start, k).unwrap();
-                    simulate(&osc, start, limits, &Control::default()).unwrap()
+                    simulate(&osc, start, plan, &Control::default()).unwrap()
                 };
                 let alone: Vec<Simulated> = (0..530).map(alone).collect();
                 for one in &alone {
@@ -228,9 +232,9 @@ mod tests {
                 }
                 let expected = expected(&alone);
                 let control = Control { threads: 1 + k % 2, ..Control::default() };
-                let mut real = vec![0.0; real_numbers(&points, limits)];
-                let got = simulate_points(&points, (&system, &start), limits, &mut real, &control).unwrap();
-                assert!(bits(&(got, real)) == bits(&expected), "{system:?} {limits:?}");
+                let mut real = vec![0.0; real_numbers(&points, plan)];
+                let got = simulate_points(&points, (&system, &start), plan, &mut real, &control).unwrap();
+                assert!(bits(&(got, real)) == bits(&expected), "{system:?} {plan:?}");
             }
         }
         assert!(reasons[..3].iter().all(|count| *count > 100), "{reasons:?}");
@@ -245,14 +249,15 @@ mod tests {
         };
         let control = Control { stop: &stop, progress: &tell, threads: 1 };
         let start = StartPlan::default();
-        let ask = |limits| {
-            let mut real = vec![0.0; real_numbers(&points, limits)];
-            simulate_points(&points, (&system, &start), limits, &mut real, &control)
+        let ask = |impacts| {
+            let plan = &SimulatePlan { impacts: Some(impacts), ..SimulatePlan::default() };
+            let mut real = vec![0.0; real_numbers(&points, plan)];
+            simulate_points(&points, (&system, &start), plan, &mut real, &control)
         };
-        let stopped = ask((Some(1000), None));
+        let stopped = ask(1000);
         assert!(matches!(stopped, Err(RunError::Stopped(of)) if of.done < 40), "{stopped:?}");
         stop.store(true, Ordering::Relaxed);
-        let stopped = ask((Some(10_000_000), None));
+        let stopped = ask(10_000_000);
         assert!(matches!(stopped, Err(RunError::Stopped(of)) if of.done == 0), "{stopped:?}");
     }
 }

@@ -4,7 +4,7 @@ use crate::diagram::ShowText;
 use crate::name::{Name, Variable};
 use crate::{
     BasinPlan, BranchPlan, CurvePlan, DiagramPlan, EdgePlan, LyapunovPlan, ManyPlan, MapPlan, MarginsPlan, PlanError,
-    RegionPlan, ResponsePlan, StartPlan,
+    RegionPlan, ResponsePlan, SimulatePlan, StartPlan,
 };
 use core::convert::Infallible;
 use serde::{Deserialize, Serialize};
@@ -14,17 +14,7 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Task {
     /// The events of a motion.
-    Simulate {
-        /// Where an oscillator starts; at rest when absent. A machine has a start of its own, as in the other tasks.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        start: Option<StartPlan>,
-        /// The largest number of impacts, of a machine of events: 1 to 10000000. 100 when absent, or 1000000 with `periods`.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        impacts: Option<u64>,
-        /// The largest number of forcing periods, up to 1e9; no limit when absent.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        periods: Option<f64>,
-    },
+    Simulate(SimulatePlan),
     /// What a motion settles into.
     Settle {
         /// Where an oscillator starts; at rest when absent.
@@ -129,7 +119,7 @@ impl Task {
     /// The name of what the task computes, after "a plan that asks to".
     pub(crate) const fn verb(&self) -> &'static str {
         match self {
-            Self::Simulate { .. } => "simulate",
+            Self::Simulate(_) => "simulate",
             Self::Settle { .. } => "settle",
             Self::Attractors { .. } => "find attractors",
             Self::Orbit { .. } => "find orbits",
@@ -150,7 +140,7 @@ impl Task {
     /// The start of an oscillator, if the task has one.
     pub(crate) const fn start(&self) -> Option<&Option<StartPlan>> {
         match self {
-            Self::Simulate { start, .. } | Self::Settle { start, .. } => Some(start),
+            Self::Simulate(SimulatePlan { start, .. }) | Self::Settle { start, .. } => Some(start),
             Self::Basin(basin) => Some(&basin.start),
             Self::Lyapunov(lyapunov) => Some(&lyapunov.start),
             Self::Margins(margins) => Some(&margins.start),
@@ -162,7 +152,7 @@ impl Task {
     /// The same, to be changed.
     pub(crate) const fn start_mut(&mut self) -> Option<&mut Option<StartPlan>> {
         match self {
-            Self::Simulate { start, .. } | Self::Settle { start, .. } => Some(start),
+            Self::Simulate(SimulatePlan { start, .. }) | Self::Settle { start, .. } => Some(start),
             Self::Basin(basin) => Some(&mut basin.start),
             Self::Lyapunov(lyapunov) => Some(&mut lyapunov.start),
             Self::Margins(margins) => Some(&mut margins.start),
@@ -214,6 +204,12 @@ fn of_any<V: Clone + Into<Variable>>(name: &V) -> Result<Variable, Infallible> {
 #[allow(clippy::unnecessary_wraps, reason = "other names may be wrong")]
 fn text<Q: Name>(name: &Q) -> Result<String, Infallible> {
     Ok(name.text().to_owned())
+}
+
+impl From<SimulatePlan> for Task {
+    fn from(plan: SimulatePlan) -> Self {
+        Self::Simulate(plan)
+    }
 }
 
 /// Plans with names of what varies: with those of a system, and as tasks of any system.

@@ -9,8 +9,9 @@ pub(crate) const MOST_POINTS: u64 = 800_000;
 pub(crate) const MOST_STARTS: u64 = 2_000_000;
 /// Maximum number of impacts followed for one answer, if the plan sets the number.
 pub(crate) const MOST_IMPACTS: u64 = 2_000_000;
-/// Maximum number of forcing periods of one waveform.
+/// Maximum number of forcing periods of one waveform, and its longest time.
 const MOST_PERIODS: f64 = 10_000.0;
+const LONGEST: f64 = 100_000.0;
 
 /// Refuses a plan that exceeds the limits.
 pub(crate) fn check(plan: &Plan) -> Result<(), Refusal> {
@@ -44,14 +45,15 @@ pub(crate) fn check(plan: &Plan) -> Result<(), Refusal> {
             let impacts = impacts.saturating_add(transient);
             within("impacts", impacts.saturating_add(lyapunov.points.unwrap_or(0)), MOST_IMPACTS)
         }
-        Task::Simulate { impacts, periods, .. } => {
-            within("impacts", impacts.unwrap_or(0), 100_000)?;
-            match periods.filter(|periods| *periods > MOST_PERIODS) {
-                Some(given) => Err(Refusal::too_much(format!(
-                    "periods = {given} is more than the explorer follows at once, {MOST_PERIODS}"
-                ))),
-                None => Ok(()),
+        Task::Simulate(plan) => {
+            within("impacts", plan.impacts.unwrap_or(0), 100_000)?;
+            for (what, given, most) in [("periods", plan.periods, MOST_PERIODS), ("time", plan.time, LONGEST)] {
+                if let Some(given) = given.filter(|given| *given > most) {
+                    let text = format!("{what} = {given} is more than the explorer follows at once, {most}");
+                    return Err(Refusal::too_much(text));
+                }
             }
+            Ok(())
         }
         Task::Branch(branch) => within("points", u64::from(branch.points), 20_000),
         Task::Region(region) => within("grid", u64::from(region.grid), 100),

@@ -114,7 +114,7 @@ impl Teller for SystemPlan {
         match &of.plan.task {
             Task::Map(_) | Task::Diagram(_) | Task::Region(_) | Task::Response(_) => String::new(),
             Task::Attractors { .. } => system,
-            Task::Simulate { .. } => system + &start(),
+            Task::Simulate(_) => system + &start(),
             Task::Settle { .. } | Task::Lyapunov(_) | Task::Edge(_) => system + &start() + "\n",
             Task::Margins(plan) if plan.label.is_none() => system + &start() + "\n",
             _ => system + "\n",
@@ -158,7 +158,7 @@ impl Teller for SystemPlan {
     }
 
     fn simulated(of: &AnswerOf<Self>, found: &Simulated) -> String {
-        simulate::text(found, &of.asked())
+        simulate::text(found, &of.plan.task, &of.asked())
     }
 
     fn followed(of: &AnswerOf<Self>, found: &Settled) -> (&'static str, String) {
@@ -289,8 +289,7 @@ impl Teller for MachineSource {
     }
 
     fn simulated(of: &AnswerOf<Self>, found: &Simulated<Event>) -> String {
-        let periods = if let Task::Simulate { periods, .. } = &of.plan.task { *periods } else { None };
-        simulate::of_machine(found, periods, &of.system)
+        simulate::of_machine(found, &of.plan.task, &of.system)
     }
 
     fn followed(_: &AnswerOf<Self>, found: &Settled<Machine>) -> (&'static str, String) {

@@ -7,10 +7,10 @@ use vibroimpact::machine::Machine;
 use vibroimpact::motion::EventKind;
 use vibroimpact_report::Asked;
 use vibroimpact_report::number::short;
-use vibroimpact_study::Simulated;
+use vibroimpact_study::{SimulatePlan, Simulated, Task};
 
 /// The events, and the reason why the list ends.
-pub(crate) fn text(followed: &Simulated, asked: &Asked) -> String {
+pub(crate) fn text(followed: &Simulated, task: &Task, asked: &Asked) -> String {
     let units = &asked.units;
     let heads = [
         units.named("time", "s"),
@@ -42,12 +42,11 @@ pub(crate) fn text(followed: &Simulated, asked: &Asked) -> String {
         })
         .collect();
     let no_impact = followed.horizon.map(|horizon| meaning(&vibroimpact::verdict::Verdict::NoImpact(horizon)));
-    listed(&heads, &rows) + &end(followed.reason, &short(followed.time * units.time()), no_impact)
+    listed(&heads, &rows) + &end(followed.reason, task, &short(followed.time * units.time()), no_impact)
 }
 
-/// The same of a machine, with its coordinates and velocities after each event; of a motion that was followed for so many
-/// forcing periods.
-pub(crate) fn of_machine(followed: &Simulated<Event>, periods: Option<f64>, machine: &Machine) -> String {
+/// The same of a machine, with its coordinates and velocities after each event.
+pub(crate) fn of_machine(followed: &Simulated<Event>, task: &Task, machine: &Machine) -> String {
     let forced = machine.period().is_some();
     let coordinates = &machine.parts().coordinates;
     let heads: Vec<String> = [Some("time"), forced.then_some("phase"), Some("<event"), Some("<stop"), Some("speed")]
@@ -64,18 +63,18 @@ pub(crate) fn of_machine(followed: &Simulated<Event>, periods: Option<f64>, mach
         begin.chain(what).chain(event.q.iter().chain(&event.qdot).map(|value| short(*value))).collect()
     };
     let rows: Vec<Vec<String>> = followed.events.iter().map(row).collect();
-    // without a number of periods a motion ends at the longest time between two events
-    let reason =
-        if followed.reason == "time_limit" && periods.is_none() { "no further event" } else { followed.reason };
-    listed(&heads, &rows) + &end(reason, &short(followed.time), None)
+    // without such a limit a motion ends at the longest time between two events
+    let endless = followed.reason == "time_limit" && followed.until.is_infinite();
+    let reason = if endless { "no further event" } else { followed.reason };
+    listed(&heads, &rows) + &end(reason, task, &short(followed.time), None)
 }
 
 fn listed(heads: &[String], rows: &[Vec<String>]) -> String {
     if rows.is_empty() { "no events\n".to_owned() } else { table(heads, rows) }
 }
 
-/// Why the list of events ends, and when; `no_impact` says why there are no more impacts.
-fn end(reason: &str, time: &str, no_impact: Option<String>) -> String {
+/// Why the list of events of this task ends, and when; `no_impact` says why there are no more impacts.
+fn end(reason: &str, task: &Task, time: &str, no_impact: Option<String>) -> String {
     match reason {
         "no_more_impacts" => {
             let why = no_impact.unwrap_or_else(|| "no more impacts, ever".to_owned());
@@ -84,7 +83,14 @@ fn end(reason: &str, time: &str, no_impact: Option<String>) -> String {
         "stuck" => format!("end     after time {time}: it stays on the stop for ever\n"),
         "impact_limit" => format!("end     at time {time}: the number of impacts asked for\n"),
         "event_limit" => format!("end     at time {time}: the number of events asked for\n"),
-        "time_limit" => format!("end     at time {time}: the number of periods asked for\n"),
+        "time_limit" => {
+            let limit = match task {
+                Task::Simulate(SimulatePlan { time: Some(_), periods: None, .. }) => "time",
+                Task::Simulate(SimulatePlan { time: Some(_), periods: Some(_), .. }) => "time or number of periods",
+                _ => "number of periods",
+            };
+            format!("end     at time {time}: the {limit} asked for\n")
+        }
         "search_limit" => format!("end     after time {time}: the search for the next impact ran out of steps\n"),
         other => format!("end     after time {time}: {}\n", other.replace('_', " ")),
     }

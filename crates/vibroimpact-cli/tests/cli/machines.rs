@@ -104,7 +104,7 @@ fn the_schema_of_plans_is_one_for_both_systems() {
     assert_eq!(schema["required"], serde_json::json!(["version", "task"]));
     let fields = schema["properties"].as_object().unwrap();
     assert!(["system", "units", "machine", "start", "set"].iter().all(|name| fields.contains_key(*name)), "{schema}");
-    assert!(schema["$defs"]["Task"].to_string().contains("periods"), "{schema}");
+    assert!(schema["$defs"]["SimulatePlan"].to_string().contains("periods"), "{schema}");
 }
 
 /// The contact of SDND101 has a closed form: half a period of the mass on both springs.
@@ -145,6 +145,7 @@ fn printed_plans_run_again() {
     for line in [
         "--machine capsule --set beta=20 --periods 5",
         "--machine sdnd101 --impacts 4",
+        "--machine sdnd106 --time 0.15",
         "--machine cantilever --phase 2",
     ] {
         let told = json(&format!("simulate {line}"));
@@ -198,6 +199,10 @@ fn waveforms() {
     // a motion that ends where it begins
     printed(&format!("simulate --machine sdnd101 --impacts 1 --plot {} --csv -", file("short.png")));
     assert!(fs::read(file("short.png")).unwrap().starts_with(b"\x89PNG"));
+    // without further events, and without forcing, up to the time asked for
+    let pulled = printed("simulate --machine sdnd106 --time 0.15 --csv - --step 0.05");
+    assert!(pulled.lines().last().unwrap().starts_with("0.15,1.35333766089"), "{pulled}");
+    assert!(refused("simulate --machine sdnd106 --time 0").contains("time = 0 lies outside 0 < time <= 1e10"));
     assert!(refused("simulate --machine soft-stop --periods 1 --csv - --step 0").contains("step = 0 lies outside"));
     assert!(refused("simulate --machine soft-stop --periods 1 --csv - --step 1e-9").contains("at most"));
 }

@@ -29,7 +29,7 @@ fn of_every_task() {
     let two = json!({ "beta": 0.9, "gap": 0.75, "restitution": 0.5, "damping": 0.05, "second_stop": { "gap": 2.0, "restitution": 0.4 } });
     let over = |parameter: &str, from: f64, to: f64| json!({ "parameter": parameter, "from": from, "to": to });
     for task in [
-        json!({ "simulate": { "start": { "x": -0.5, "v": 1e-7, "phase": 0.1 }, "impacts": 3, "periods": 2.5 } }),
+        json!({ "simulate": { "start": { "x": -0.5, "v": 1e-7, "phase": 0.1 }, "impacts": 3, "periods": 2.5, "time": 11.25 } }),
         json!({ "settle": { "start": { "v": -1.0 } } }),
         json!({ "attractors": { "starts": 4, "seed": 0 } }),
         json!({ "settle": { "start": {}, "impacts": 80 } }),
@@ -114,6 +114,7 @@ fn of_a_machine_in_its_units() {
     for (task, part) in [
         (json!({ "settle": { "start": { "x": 0.0005 / length } } }), "--x 0.0005"),
         (json!({ "simulate": { "start": {}, "periods": 3.0 } }), "--frequency-hz 15.5"),
+        (json!({ "simulate": { "start": {}, "time": 0.25 * (12_000.0_f64 / 0.8).sqrt() } }), "--time 0.25"),
         (
             json!({ "map": { "axes": [{ "vary": "frequency_hz", "over": "10:20:3" }, { "vary": "gap_m", "over": "0.001:0.002:2" }], "starts": 1 } }),
             "--frequency-hz 10:20:3",

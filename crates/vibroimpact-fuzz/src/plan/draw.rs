@@ -43,16 +43,19 @@ fn alone(task: BoxedStrategy<Value>) -> Tasks {
 
 fn one_start() -> Tasks {
     let few = prop::option::of(1..30_u64);
-    let periods = prop::option::of(
-        prop_oneof![4 => (0.0..20.0_f64).prop_map(|n| json!(n)), 1 => number().prop_map(|text| value(&text))],
-    );
+    let length = || {
+        prop::option::of(
+            prop_oneof![4 => (0.0..20.0_f64).prop_map(|n| json!(n)), 1 => number().prop_map(|text| value(&text))],
+        )
+    };
     let begin = || start().prop_map(|values| object(&values));
     let budget = || prop::option::weighted(0.2, 1..400_u32);
     alone(
         prop_oneof![
             3 => (begin(), budget()).prop_map(|(start, impacts)| json!({ "settle": { "start": start, "impacts": impacts } })),
-            3 => (begin(), few, periods)
-                .prop_map(|(start, impacts, periods)| json!({ "simulate": { "start": start, "impacts": impacts, "periods": periods } })),
+            3 => (begin(), few, length(), length()).prop_map(|(start, impacts, periods, time)| {
+                json!({ "simulate": { "start": start, "impacts": impacts, "periods": periods, "time": time } })
+            }),
             2 => (1..20_u64, any::<u64>(), budget()).prop_map(
                 |(starts, seed, impacts)| json!({ "attractors": { "starts": starts, "seed": seed, "impacts": impacts } }),
             ),

@@ -16,7 +16,7 @@ use serde_json::Value;
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 use vibroimpact_report::{AnswerError, Shown, Units, answer};
-use vibroimpact_study::{Control, Plan, Task};
+use vibroimpact_study::{Control, Plan, SimulatePlan, Task};
 
 /// A plan, its mutations, and its format.
 #[derive(Clone, Debug)]
@@ -131,8 +131,9 @@ pub(crate) fn small(plan: &Plan) -> bool {
 /// Approximate number of impacts of its budget.
 fn budget(plan: &Plan) -> u64 {
     match &plan.task {
-        Task::Simulate { impacts, periods, .. } => {
-            let periods = periods.map_or(0.0, |periods| periods.min(1e9));
+        Task::Simulate(SimulatePlan { impacts, periods, time, .. }) => {
+            // a time has more periods than this at high frequencies only, where a period has few impacts
+            let periods = periods.or(*time).map_or(0.0, |length| length.min(1e9));
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // saturating
             let more = (100.0 * periods).max(0.0).round() as u64;
             impacts.unwrap_or(100).saturating_add(more)

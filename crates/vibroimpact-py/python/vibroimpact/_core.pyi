@@ -113,7 +113,7 @@ class MachineFile:
 
 def simulate_machines(
     file: MachineFile, numbers: list[tuple[str, list[float]]], starts: list[_MachineStart],
-    limits: tuple[int | None, float | None], threads: int, progress: _Progress,
+    limits: tuple[int | None, float | None, float | None], threads: int, progress: _Progress,
 ) -> _Fields: ...
 def states_of_machines(
     file: MachineFile, numbers: list[tuple[str, list[float]]], starts: list[_MachineStart],
@@ -134,7 +134,7 @@ def settle_points(
     progress: _Progress,
 ) -> list[_Fields]: ...
 def simulate_points(
-    osc: OscillatorFile, over: _Columns, start: _Start, limits: tuple[int | None, float | None], threads: int,
+    osc: OscillatorFile, over: _Columns, start: _Start, limits: tuple[int | None, float | None, float | None], threads: int,
     progress: _Progress,
 ) -> _Fields: ...
 def end_reasons() -> list[str]: ...

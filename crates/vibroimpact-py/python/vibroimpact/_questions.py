@@ -19,11 +19,11 @@ from vibroimpact._whole import SEED, STARTS, whole
 
 
 def _events(system, task):
-    return task.get("impacts") or (1 if "periods" in task else 100)
+    return task.get("impacts") or (1 if {"periods", "time"} & task.keys() else 100)
 
 
 @question(Simulation, "simulate", START, "events", total=_events)
-def simulate(system, *, impacts=None, periods=None):
+def simulate(system, *, impacts=None, periods=None, time=None):
     """Follow a motion event by event: impacts, grazing contacts, sticking and release, contact and slip.
 
     Examples
@@ -42,7 +42,7 @@ def simulate(system, *, impacts=None, periods=None):
     >>> float(wave.force[:, 0].max().round())          # 9950.37 N in closed form
     9950.0
     """
-    return {"impacts": impacts, "periods": periods}
+    return {"impacts": impacts, "periods": periods, "time": time}
 
 
 @question(Settled, "settle", START, "motions")

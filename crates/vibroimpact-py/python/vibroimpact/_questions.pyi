@@ -24,9 +24,9 @@ from vibroimpact._plan import Plan
 from vibroimpact._progress import Progress
 
 def simulate(
-    system: System, *, impacts: SupportsIndex | None = None, periods: float | None = None, x: float | None = None,
-    v: float | None = None, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
-    progress: Progress = None,
+    system: System, *, impacts: SupportsIndex | None = None, periods: float | None = None, time: float | None = None,
+    x: float | None = None, v: float | None = None, q: ArrayLike | None = None, qdot: ArrayLike | None = None,
+    phase: float | None = None, progress: Progress = None,
 ) -> Simulation: ...
 def settle(
     system: System, *, impacts: SupportsIndex | None = None, x: float | None = None, v: float | None = None,

@@ -31,6 +31,7 @@ def simulate_many(
     starts: "Points | None" = None,
     impacts: int | None = None,
     periods: float | None = None,
+    time: float | None = None,
     at: ArrayLike | None = None,
     phase: float | None = None,
     position: float | Mapping[str, float] | None = None,
@@ -52,9 +53,11 @@ def simulate_many(
         Values of "x", "v" and "phase", of a machine of "q.NAME", "qdot.NAME" and "phase". Default: at rest, or on the stop, at
         phase 0; the start of the machine.
     impacts : int
-        Stop after this number of impacts, of a machine of events, 1 to 1e7. Default: 100, or 1e6 with `periods`.
+        Stop after this number of impacts, of a machine of events, 1 to 1e7. Default: 100, or 1e6 with `periods` or `time`.
     periods : float
         Stop after this number of forcing periods, up to 1e9. Default for `phase` and `position`: 100.
+    time : float
+        Stop the events at this time, up to 1e10.
     at : array_like
         Times, 0 or more and rising: the states at these times, from the closed form of the flights. At the time of an event
         the state is that after it; while the last impacts of a chatter are summed, that of rest.
@@ -101,10 +104,12 @@ def simulate_many(
     given = [name for name, of in (("at", at), ("phase", phase), ("position", position)) if of is not None]
     if len(given) > 1:
         raise QuestionError(f"{given[0]} and {given[1]} are two questions\nhint: a call for each")
-    if periods is not None and not 0 < periods <= 1e9:
-        raise QuestionError(f"periods = {periods} lies outside 0 < periods <= 1000000000")
-    if given and impacts is not None:
-        raise QuestionError(f"impacts has no meaning with {given[0]}\nhint: periods limits the time")
+    for name, value, most in (("periods", periods, 1e9), ("time", time, 1e10)):
+        if value is not None and not 0 < value <= most:
+            raise QuestionError(f"{name} = {value} lies outside 0 < {name} <= {most:.0f}")
+    for name, value in (("impacts", impacts), ("time", time)):
+        if given and value is not None:
+            raise QuestionError(f"{name} has no meaning with {given[0]}\nhint: periods limits the time")
     limit, threads = None if impacts is None else whole("impacts", impacts, SIMULATED, here=True), threads_of(threads)
     if at is not None and periods is not None:
         raise QuestionError("periods has no meaning with at\nhint: the last time limits the time")
@@ -121,11 +126,11 @@ def simulate_many(
         if isinstance(points, MachineOver):
             asked = _asked(points)
             if section is None:
-                return _events_of_machines(points, _core.simulate_machines(*asked, (limit, periods), threads, tell))
+                return _events_of_machines(points, _core.simulate_machines(*asked, (limit, periods, time), threads, tell))
             return _states(points, times, _core.states_of_machines(*asked, section, threads, tell))
         common = (points.osc._file, points.columns, points.start)
         if section is None:
-            return _events(points, _core.simulate_points(*common, (limit, periods), threads, tell))
+            return _events(points, _core.simulate_points(*common, (limit, periods, time), threads, tell))
         return _states(points, times, _core.states_of_points(*common, section, threads, tell))
 
 

@@ -62,7 +62,7 @@ impl AnswerOf<MachineSource> {
         let motion = Motion::new(&self.system, from, limits);
         let motion = motion.map_err(|error| ReportError::Plan(PlanError::Machine(error.into())))?;
         let events = motion.take_while(|event| event.time <= time).take(MOST_EVENTS).collect();
-        let found = Simulated { events, reason: "time_limit", time, horizon: None, shown_until: time };
+        let found = Simulated { events, reason: "time_limit", time, until: time, horizon: None, shown_until: time };
         Ok(figure::machine_waveform::figure(&self.system, from, &found, title)?)
     }
 }
@@ -98,8 +98,7 @@ impl Told for MachineSource {
     }
 
     fn events<'a>(of: &'a AnswerOf<Self>, found: &'a Simulated<Event>) -> Events<'a> {
-        let periods = if let Task::Simulate { periods, .. } = &of.plan.task { *periods } else { None };
-        Events::Machine((&of.system, &of.start), periods, found.events.len())
+        Events::Machine((&of.system, &of.start), found.until, found.events.len())
     }
 
     fn settled<'a>(of: &'a AnswerOf<Self>, found: &'a Settled<Machine>, _: bool) -> SettleAnswer<'a> {

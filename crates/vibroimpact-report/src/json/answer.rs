@@ -89,7 +89,7 @@ fn document<D: Told, T: Serialize>(of: &AnswerOf<D>, result: T) -> Document<'_, 
 /// Whether a task has one start, or all of its starts agree in what varies on no axis.
 const fn begins(task: &Task) -> bool {
     match task {
-        Task::Simulate { .. } | Task::Settle { .. } | Task::Lyapunov(_) | Task::SettleMany(_) | Task::Basin(_) => true,
+        Task::Simulate(_) | Task::Settle { .. } | Task::Lyapunov(_) | Task::SettleMany(_) | Task::Basin(_) => true,
         Task::Edge(_) => true,
         Task::Branch(branch) => branch.label.is_none(),
         Task::Curve(curve) => curve.label.is_none(),

@@ -25,8 +25,8 @@ pub(super) struct SimulateAnswer<'a> {
 pub enum Events<'a> {
     /// Of an oscillator, in these units.
     Oscillator(&'a Oscillator, &'a [Event], Box<Units>),
-    /// So many of the events of a machine from a start, which were followed for so many forcing periods.
-    Machine((&'a Machine, &'a events::Start), Option<f64>, usize),
+    /// So many of the events of a machine from a start, which were followed up to a time.
+    Machine((&'a Machine, &'a events::Start), f64, usize),
 }
 
 /// The reason why the list of events ends, and the time.
@@ -54,8 +54,8 @@ fn each_event<S: Serializer>(events: &Events<'_>, serializer: S) -> Result<S::Ok
         Events::Oscillator(osc, events, units) => {
             serializer.collect_seq(events.iter().map(|event| EventObject::of_oscillator(osc, event, units)))
         }
-        Events::Machine((machine, start), periods, count) => {
-            let events = events_with_states(machine, start, *periods).map_err(Error::custom)?;
+        Events::Machine((machine, start), until, count) => {
+            let events = events_with_states(machine, start, *until).map_err(Error::custom)?;
             serializer.collect_seq(events.take(*count).map(|event| event::EventOf(machine, event)))
         }
     }

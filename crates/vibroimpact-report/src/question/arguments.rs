@@ -22,7 +22,7 @@ impl Argument {
     }
 }
 
-/// The name of the task of a plan and the arguments that are not the usual ones. Positions and velocities are in these units.
+/// The name of the task of a plan and the arguments that are not the usual ones. Positions, velocities and times are in these units.
 pub(super) fn arguments(plan: &Plan, units: &Units) -> Option<(String, Vec<Argument>)> {
     let text = serde_json::to_value(plan).ok()?;
     let (verb, fields) = text["task"].as_object()?.iter().next()?;
@@ -45,21 +45,22 @@ pub(super) fn arguments(plan: &Plan, units: &Units) -> Option<(String, Vec<Argum
             Some(back) => json!([back, value]),
             None => value.clone(),
         };
-        let spelled = spelled(name, value, units).into_iter();
+        let spelled = spelled(name, &value, units).into_iter();
         all.extend(spelled.map(|(name, value)| Argument { name, value, required: less.is_none() }));
     }
     Some((verb.clone(), all))
 }
 
 /// A field of a task as one or more arguments: numbers, texts, lists of these, or values by name.
-fn spelled(name: &str, value: Value, units: &Units) -> Vec<(String, Value)> {
+fn spelled(name: &str, value: &Value, units: &Units) -> Vec<(String, Value)> {
     let argument = |name: &str, value: Value| (name.to_owned(), value);
     let scaled = |name: &str, value: &Value| match (name, value.as_f64()) {
         ("x", Some(x)) => json!(given(x, units.length())),
         ("v", Some(v)) => json!(given(v, units.velocity())),
+        ("time", Some(time)) => json!(given(time, units.time())),
         _ => value.clone(),
     };
-    match (name, &value) {
+    match (name, value) {
         ("start", Value::Object(start)) => {
             // minus zero is a different value and is written
             let zero = |value: &Value| value.as_f64().is_some_and(|value| value.to_bits() == 0);
@@ -90,9 +91,9 @@ fn spelled(name: &str, value: Value, units: &Units) -> Vec<(String, Value)> {
                 (Some(from), Some(to)) => Some(json!({ "from": from, "to": to })),
                 (_, to) => to.cloned(),
             };
-            vec![argument(name, by_name(core::slice::from_ref(&value), "parameter", over))]
+            vec![argument(name, by_name(core::slice::from_ref(value), "parameter", over))]
         }
-        _ => vec![argument(name, value)],
+        _ => vec![argument(name, scaled(name, value))],
     }
 }
 

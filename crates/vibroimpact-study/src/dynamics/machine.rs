@@ -13,7 +13,7 @@ use crate::simulate::simulate_machine;
 use crate::study::{SweepFill, machine_diagram_of};
 use crate::{
     Column, Control, CurvePlan, Cut, DEFAULT_BRANCH_POINTS, FollowedEvent, LyapunovPlan, MarginsPlan, Orbit, PlanError,
-    PlanResults, Results, RunError, ScaledParameter, Scope, Simulated, Stopped, Stretch, Task,
+    PlanResults, Results, RunError, ScaledParameter, Scope, SimulatePlan, Simulated, Stopped, Stretch, Task,
 };
 use vibroimpact::Label;
 use vibroimpact::chaos::machine_exponents_while;
@@ -119,7 +119,9 @@ impl Dynamics for MachineSource {
             Motion::new(machine, &of.start, Limits::default()).map_err(refused)?;
         }
         match task {
-            Task::Simulate { periods: Some(_), .. } if machine.period().is_none() => Err(PlanError::Unforced),
+            Task::Simulate(SimulatePlan { periods: Some(_), .. }) if machine.period().is_none() => {
+                Err(PlanError::Unforced)
+            }
             Task::Basin(plan) => plan.typed::<String, String>()?.check(machine),
             Task::Map(plan) => plan.typed::<String, String>()?.check(source),
             Task::Diagram(plan) => plan.typed::<String, String>()?.check(source),
@@ -136,10 +138,10 @@ impl Dynamics for MachineSource {
 
     fn simulate(
         of: &Setup<'_, Self>,
-        lengths: (Option<u64>, Option<f64>),
+        plan: &SimulatePlan,
         control: &Control<'_>,
     ) -> Result<Simulated<Event>, RunError> {
-        simulate_machine(&of.system, &of.start, lengths, control)
+        simulate_machine(&of.system, &of.start, plan, control)
     }
 
     fn attractors(

@@ -15,7 +15,7 @@ use crate::orbit_line::{Along, OrbitLine, Solution};
 use crate::region::Over;
 use crate::{
     Chosen, Column, Control, CurvePlan, Cut, FollowedEvent, LyapunovPlan, MarginsPlan, Orbit, OrbitNumber, PlanError,
-    PlanResults, Results, RunError, ScaledParameter, Scope, Simulated, Stopped, Stretch, Task,
+    PlanResults, Results, RunError, ScaledParameter, Scope, SimulatePlan, Simulated, Stopped, Stretch, Task,
 };
 use core::fmt::Debug;
 use std::borrow::Cow;
@@ -61,7 +61,7 @@ pub trait Dynamics: Clone + Debug {
     /// The events of a motion, up to a number of them and of forcing periods.
     fn simulate(
         of: &Setup<'_, Self>,
-        lengths: (Option<u64>, Option<f64>),
+        plan: &SimulatePlan,
         control: &Control<'_>,
     ) -> Result<Simulated<Self::Event>, RunError>;
 

@@ -12,8 +12,8 @@ use crate::stretch::check_plane;
 use crate::study::{SweepFill, diagram_of};
 use crate::{
     Column, Control, Coordinate, CurvePlan, Cut, FollowedEvent, LyapunovPlan, MarginsPlan, Orbit, Parameter, PlanError,
-    PlanResults, Quantity, Results, RunError, ScaledParameter, Scope, SectionPoints, Simulated, StartPlan, Stopped,
-    Stretch, SystemPlan, Task,
+    PlanResults, Quantity, Results, RunError, ScaledParameter, Scope, SectionPoints, SimulatePlan, Simulated,
+    StartPlan, Stopped, Stretch, SystemPlan, Task,
 };
 use vibroimpact::chaos::{exponents_while, section_while};
 use vibroimpact::continuation::{
@@ -98,12 +98,8 @@ impl Dynamics for SystemPlan {
         if let PlanResults::Oscillator(own) = results { Some(own) } else { None }
     }
 
-    fn simulate(
-        of: &Setup<'_, Self>,
-        lengths: (Option<u64>, Option<f64>),
-        control: &Control<'_>,
-    ) -> Result<Simulated, RunError> {
-        Ok(simulate(&of.system, of.start, lengths, control)?)
+    fn simulate(of: &Setup<'_, Self>, plan: &SimulatePlan, control: &Control<'_>) -> Result<Simulated, RunError> {
+        Ok(simulate(&of.system, of.start, plan, control)?)
     }
 
     fn attractors(

@@ -1,19 +1,18 @@
-//! The events of a motion of a machine, up to a number of events or forcing periods, and the reason why the list ends.
+//! The events of a motion of a machine, up to a number of events, forcing periods or a time, and the reason why the list ends.
 
-use super::{SEARCH_LIMIT, TELL, most_impacts};
+use super::{SEARCH_LIMIT, SimulatePlan, TELL};
 use crate::{Control, PlanError, RunError, Simulated, Stopped};
 use vibroimpact::events::{End, Event, Limits, Motion, Start};
 use vibroimpact::machine::Machine;
 
-/// Follows a motion up to the given number of events and of forcing periods.
+/// Follows a motion from a start up to the lengths of a plan.
 pub(crate) fn simulate(
     machine: &Machine,
     start: &Start,
-    (impacts, periods): (Option<u64>, Option<f64>),
+    plan: &SimulatePlan,
     control: &Control<'_>,
 ) -> Result<Simulated<Event>, RunError> {
-    let most = most_impacts(impacts, periods);
-    let until = periods.zip(machine.period()).map_or(f64::INFINITY, |(periods, period)| periods * period);
+    let (most, until) = (plan.most_impacts(), plan.until(machine.period()));
     let limits = limits(until);
     let mut motion = Motion::new(machine, start, limits).map_err(|error| PlanError::Machine(error.into()))?;
     let mut events: Vec<Event> = Vec::new();
@@ -44,23 +43,21 @@ pub(crate) fn simulate(
     };
     let last = events.last().map_or(0.0, |event| event.time);
     let for_ever = matches!(reason, "no_more_impacts" | "stuck");
-    let after =
-        if for_ever || reason == "time_limit" && until.is_infinite() { beyond(machine, &events) } else { time - last };
-    let shown_until = (last + after).min(if for_ever { until } else { time });
-    Ok(Simulated { events, reason, time, horizon: None, shown_until })
+    let shown_until = match (for_ever, until.is_finite()) {
+        (true, true) => until,
+        (true, false) => last + beyond(machine, &events),
+        (false, false) if reason == "time_limit" => time.min(last + beyond(machine, &events)),
+        (false, _) => time,
+    };
+    Ok(Simulated { events, reason, time, until, horizon: None, shown_until })
 }
 
-/// The events of a motion again, each with the state from which the motion goes on after it. They are followed anew, so that
-/// the states of a long motion need no memory.
+/// The events of a motion again, up to this time, each with the state from which the motion goes on after it. They are followed
+/// anew, so that the states of a long motion need no memory.
 ///
 /// # Errors
 /// [`PlanError`] for an invalid start.
-pub fn events_with_states<'a>(
-    machine: &'a Machine,
-    start: &Start,
-    periods: Option<f64>,
-) -> Result<Motion<'a>, PlanError> {
-    let until = periods.zip(machine.period()).map_or(f64::INFINITY, |(periods, period)| periods * period);
+pub fn events_with_states<'a>(machine: &'a Machine, start: &Start, until: f64) -> Result<Motion<'a>, PlanError> {
     Motion::with_states(machine, start, limits(until)).map_err(|error| PlanError::Machine(error.into()))
 }
 
@@ -104,8 +101,8 @@ mod tests {
             "[machine]\nbodies = { a = 1 }\nfrequency = 0.7\nlink = [{ between = [\"a\", \"ground\"], stiffness = 1 }]\n\
              force = [{ at = \"a\", sin = 1 }]\nstop = [{ name = \"s\", at = \"a\", gap = 0.2, restitution = 0.5 }]",
         );
-        let run =
-            |impacts, periods| simulate(&driven, &Start::default(), (impacts, periods), &Control::default()).unwrap();
+        let follow = |plan| simulate(&driven, &Start::default(), &plan, &Control::default()).unwrap();
+        let run = |impacts, periods| follow(SimulatePlan { impacts, periods, ..SimulatePlan::default() });
         let some = run(Some(7), None);
         assert_eq!((some.reason, some.events.len(), some.time), ("event_limit", 7, some.events[6].time));
         let timed = run(None, Some(3.0));
@@ -114,8 +111,16 @@ mod tests {
         let free =
             machine("[machine]\nbodies = { a = 1 }\nstop = [{ name = \"s\", at = \"a\", gap = 1, restitution = 0.5 }]");
         let start = Start { qdot: vec![2.0], ..Start::default() };
-        let left = simulate(&free, &start, (None, None), &Control::default()).unwrap();
+        let from = |plan| simulate(&free, &start, &plan, &Control::default()).unwrap();
+        let left = from(SimulatePlan::default());
         assert_eq!((left.reason, left.events.len(), left.time, left.shown_until), ("no_more_impacts", 1, 0.5, 0.75));
+        let timed = from(SimulatePlan { time: Some(3.0), ..SimulatePlan::default() });
+        assert_eq!((timed.reason, timed.time, timed.shown_until), ("no_more_impacts", 0.5, 3.0));
+        let before = from(SimulatePlan { time: Some(0.25), ..SimulatePlan::default() });
+        assert_eq!(
+            (before.reason, before.events.len(), before.time, before.shown_until),
+            ("time_limit", 0, 0.25, 0.25)
+        );
     }
 
     #[test]
@@ -123,7 +128,8 @@ mod tests {
         let ball = machine("[machine]\nbodies = { a = 1 }");
         let stop = AtomicBool::new(true);
         let control = Control { stop: &stop, ..Control::default() };
-        let stopped = simulate(&ball, &Start::default(), (Some(5), None), &control);
+        let stopped =
+            simulate(&ball, &Start::default(), &SimulatePlan { impacts: Some(5), ..SimulatePlan::default() }, &control);
         assert_eq!(stopped, Err(RunError::Stopped(Stopped { done: 0, total: 5 })));
     }
 }

@@ -1,19 +1,17 @@
-//! The events of one motion, up to a number of impacts or forcing periods, and the reason why the list ends.
+//! The events of one motion, up to a number of impacts, forcing periods or a time, and the reason why the list ends.
 
 mod machine;
+mod plan;
 
-use crate::{Control, PlanError, Stopped, limits};
+use crate::{Control, Stopped};
 pub use machine::events_with_states;
 pub(crate) use machine::{limits as limits_until, simulate as simulate_machine};
+pub use plan::SimulatePlan;
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::motion::{End, Event, EventKind, Motion};
 use vibroimpact::verdict::NoImpact;
 use vibroimpact::{Oscillator, Start};
 
-/// Number of impacts if neither impacts nor periods are given.
-const DEFAULT_IMPACTS: u64 = 100;
-/// Number of impacts if only a number of periods is given.
-const MOST_IMPACTS: u64 = 1_000_000;
 /// Number of consecutive grazing contacts, sticks and releases without an impact after which the motion is not followed
 /// further.
 const IDLE: u32 = 1000;
@@ -34,30 +32,12 @@ pub struct Simulated<E = Event> {
     pub reason: &'static str,
     /// The time at which the list ends.
     pub time: f64,
+    /// The time at which it ends at the latest; infinite without such a limit.
+    pub until: f64,
     /// Why an oscillator has no more impacts, if this is decided.
     pub horizon: Option<NoImpact>,
     /// The time up to which a waveform is worth showing: not far beyond the last event if none follows it.
     pub shown_until: f64,
-}
-
-/// The number of impacts, of a machine of events, to follow, with defaults applied.
-#[must_use]
-pub fn most_impacts(impacts: Option<u64>, periods: Option<f64>) -> u64 {
-    impacts.unwrap_or(if periods.is_some() { MOST_IMPACTS } else { DEFAULT_IMPACTS })
-}
-
-/// Checks the numbers of events and of forcing periods of a simulation.
-pub(crate) fn check_lengths(impacts: Option<u64>, periods: Option<f64>) -> Result<(), PlanError> {
-    impacts.map_or(Ok(()), |given| limits::check("impacts", given, 1..=10_000_000))?;
-    match periods.filter(|n| !(*n > 0.0 && *n <= 1e9)) {
-        Some(given) => Err(PlanError::OutOfRange {
-            name: "periods",
-            given: given.to_string(),
-            range: "0 < periods <= 1e9".to_owned(),
-            hint: "",
-        }),
-        None => Ok(()),
-    }
 }
 
 /// The reason why a list of events ends, the time at which it ends, and why there are no more impacts, if this is decided.
@@ -84,15 +64,13 @@ pub(crate) struct SoFar {
 }
 
 impl Bounds {
-    /// Up to the given number of impacts and of forcing periods; 100 impacts, or a million with `periods`, when absent.
-    pub(crate) fn new(osc: &Oscillator, (impacts, periods): (Option<u64>, Option<f64>)) -> Self {
-        let search = SearchLimits::default();
-        Self {
-            impacts: most_impacts(impacts, periods),
-            until: periods.map_or(f64::INFINITY, |n| n * osc.period()),
-            period: osc.period(),
-            search: SearchLimits { periods: search.periods.max(periods.unwrap_or(0.0)), ..search },
-        }
+    /// Up to the lengths of a plan.
+    pub(crate) fn new(osc: &Oscillator, plan: &SimulatePlan) -> Self {
+        let (search, period, until) = (SearchLimits::default(), osc.period(), plan.until(Some(osc.period())));
+        // a period more, so that rounding does not end the search before the time
+        let periods = if until.is_finite() { until / period + 1.0 } else { 0.0 };
+        let search = SearchLimits { periods: search.periods.max(periods), ..search };
+        Self { impacts: plan.most_impacts(), until, period, search }
     }
 
     /// Whether the next event of a motion belongs to the list, and the end if the list ends with it or before it.
@@ -119,18 +97,17 @@ impl Bounds {
     }
 }
 
-/// Follows a motion up to the given number of impacts and of forcing periods; 100 impacts, or a million with `periods`,
-/// when absent.
+/// Follows a motion from a start up to the lengths of a plan.
 ///
 /// # Errors
 /// [`Stopped`] when stopped by its control.
 pub fn simulate(
     osc: &Oscillator,
     start: Start,
-    limits: (Option<u64>, Option<f64>),
+    plan: &SimulatePlan,
     control: &Control<'_>,
 ) -> Result<Simulated, Stopped> {
-    let bounds = Bounds::new(osc, limits);
+    let bounds = Bounds::new(osc, plan);
     let mut motion = Motion::with_limits(osc, start, bounds.search);
     let mut events: Vec<Event> = Vec::new();
     let mut so_far = SoFar::default();
@@ -155,9 +132,10 @@ pub fn simulate(
     };
     let shown_until = match reason {
         "impact_limit" | "time_limit" => time,
+        _ if bounds.until.is_finite() => bounds.until,
         _ => time + 5.0 * osc.period(),
     };
-    Ok(Simulated { events, reason, time, horizon, shown_until })
+    Ok(Simulated { events, reason, time, until: bounds.until, horizon, shown_until })
 }
 
 /// The reason why no further event came; `last` is the time of the last event.
@@ -181,16 +159,21 @@ mod tests {
     use super::*;
     use core::sync::atomic::AtomicBool;
 
+    fn plan() -> SimulatePlan {
+        SimulatePlan::default()
+    }
+
     #[test]
     fn each_end_has_its_reason() {
         let osc = vibroimpact::scenario::N.oscillator();
-        let run = |osc: &Oscillator, impacts, periods| {
-            simulate(osc, Start::at_rest(osc), (impacts, periods), &Control::default()).unwrap()
-        };
+        let follow = |osc: &Oscillator, plan| simulate(osc, Start::at_rest(osc), &plan, &Control::default()).unwrap();
+        let run = |osc: &Oscillator, impacts, periods| follow(osc, SimulatePlan { impacts, periods, ..plan() });
         let some = run(&osc, Some(7), None);
         assert_eq!((some.reason, some.events.len()), ("impact_limit", 7));
         let timed = run(&osc, None, Some(3.0));
         assert_eq!((timed.reason, timed.time), ("time_limit", 3.0 * osc.period()));
+        let shorter = follow(&osc, SimulatePlan { periods: Some(3.0), time: Some(some.events[4].time), ..plan() });
+        assert_eq!((shorter.reason, shorter.time, shorter.events.len()), ("time_limit", some.events[4].time, 5));
         let pressed = Oscillator::new(0.9, -1.5, 0.5).unwrap();
         assert_eq!(run(&pressed, Some(10), None).reason, "stuck");
         let far = Oscillator::new(0.5, 40.0, 0.5).unwrap();
@@ -204,7 +187,7 @@ mod tests {
         let osc = vibroimpact::scenario::N.oscillator();
         let stop = AtomicBool::new(true);
         let control = Control { stop: &stop, ..Control::default() };
-        let stopped = simulate(&osc, Start::at_rest(&osc), (Some(5), None), &control);
+        let stopped = simulate(&osc, Start::at_rest(&osc), &SimulatePlan { impacts: Some(5), ..plan() }, &control);
         assert_eq!(stopped, Err(Stopped { done: 0, total: 5 }));
     }
 }
