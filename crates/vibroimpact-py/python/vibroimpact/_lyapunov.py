@@ -8,14 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact import _core
-from vibroimpact._figure import heading, named
 from vibroimpact._motion import Motion, all_measured, maybe_measured
+from vibroimpact._oscillator import Oscillator
+from vibroimpact._paint import named
 from vibroimpact._result import Answer, Made, equal, field, part
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _Floats = NDArray[np.float64]
+#: The first colour of series.
+_BLUE = "#0072b2"
 
 
 class Closings(NamedTuple):
@@ -93,27 +96,26 @@ class Lyapunov(Answer, schema="lyapunov"):
         known = [(k + 1, of.value, np.nan_to_num(of.error)) for k, of in enumerate(self.exponents) if np.isfinite(of.value)]
         if not known:
             raise _core.QuestionError("there are no finite exponents to draw")
-        from vibroimpact._palette import SERIES
-
         place, value, error = np.array(known).T
         bars = [[low, high, np.nan] for low, high in zip(value - error, value + error)]
-        look = {"colour": SERIES[0], "size": 10, "shape": "circle", "filled": True, "rim": None}
-        stroke = {"colour": SERIES[0], "width": 2.5, "dash": "solid"}
+        look = {"colour": _BLUE, "size": 10, "shape": "circle", "filled": True, "rim": None}
+        stroke = {"colour": _BLUE, "width": 2.5, "dash": "solid"}
         marks = [
             {"h_line": {"y": 0.0, "stroke": {"colour": "#999999", "width": 1.2, "dash": "solid"}}},
             {"points": {"xs": place, "ys": value, "style": look}},
             {"line": {"xs": np.repeat(place, 3), "ys": np.concatenate(bars), "stroke": stroke}},
         ]
+        system = self.system
+        heading = _core.title_of(system._file) if isinstance(system, Oscillator) else str(system.title or "machine").split(": ")[0]
         count, name = len(self.exponents), "exact" if self.exact else "with three standard errors"
         ticks = [{"value": k, "label": str(k)} for k in range(1, count + 1)]
         across = {"label": "number of the exponent", "scale": "linear", "range": (0.5, count + 0.5), "ticks": ticks}
         up = {"label": "exponent per unit of time", "scale": "linear", "range": None, "ticks": None}
         figure = {
             "panels": [{"marks": marks, "x": across, "y": up, "caption": None}], "columns": 1, "width": 640, "height": 360,
-            "title": None, "legend": {"entries": [{"key": {"point": look}, "label": name}]},
+            "title": f"{heading}: {named(self.motion.label)}", "legend": {"entries": [{"key": {"point": look}, "label": name}]},
         }
-        head = title if title is not None else f"{heading(self.system)}: {named(self.motion.label)}"
-        drawn: Axes = self._painted(figure, ax, legend, head, line)
+        drawn: Axes = self._painted(figure, ax, legend, title, line)
         return drawn
 
     def plot_sections(

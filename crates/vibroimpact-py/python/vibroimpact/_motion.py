@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from vibroimpact import _core
 from vibroimpact._core import QuestionError
-from vibroimpact._figure import named
 from vibroimpact._oscillator import Oscillator
+from vibroimpact._paint import named
 from vibroimpact._result import Answer, Listed, Made, Result, View, column, field, parts
 
 _Floats = NDArray[np.float64]

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from vibroimpact import _core
 from vibroimpact._core import QuestionError
 from vibroimpact._documented import Attributes
-from vibroimpact._styled import styled
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -190,7 +189,7 @@ class View(Result):
     def _painted(self, figure: dict[str, Any], ax: Any, legend: bool, title: str | None, line: dict[str, Any], /) -> Any:
         from vibroimpact._paint import paint
 
-        return styled(lambda ax: paint(figure, ax), ax, legend, title, line)
+        return paint(figure, ax, legend, title, line)
 
 
 class Answer(View):

@@ -5,6 +5,7 @@ then follow the data, but its attribute "plan" does not change. So a figure stat
 """
 
 import json
+import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,17 +13,20 @@ from numpy.typing import NDArray
 
 from vibroimpact import _core
 from vibroimpact._core import QuestionError
-from vibroimpact._figure import SYMBOLS, equal, span
 from vibroimpact._unit_names import described, unit_of
 
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Symbols of the coordinates of a start.
-STARTS = {"x": r"\xi_0", "v": r"u_0", "phase": r"\varphi_0"}
+#: Symbols of parameters and of the coordinates of a start, in the markup of labels.
+SYMBOLS = {
+    "beta": "*β*", "inverse_beta": "1/*β*", "gap": "*δ*", "restitution": "*ε*", "damping": "*ζ*", "second_gap": "*δ*_2",
+    "second_restitution": "*ε*_2",
+}
+STARTS = {"x": "*ξ*_0", "v": "*u*_0", "phase": "*φ*_0"}
 _FREQUENCIES = ("beta", "inverse_beta")
 #: Symbols of coordinates in metres and seconds.
-IN_METRES = {"gap": "d", "second_gap": "d_2", "x": "x_0", "v": "v_0"}
+IN_METRES = {"gap": "*d*", "second_gap": "*d*_2", "x": "*x*_0", "v": "*v*_0"}
 #: Parameters that a title always states if they are known. The others are stated only where `_worth_saying` holds.
 _ALWAYS = (*_FREQUENCIES, "gap", "restitution")
 
@@ -40,10 +44,25 @@ def with_fixed(ds: "xr.Dataset") -> "xr.Dataset":
     return whole
 
 
+def plain(text: str) -> str:
+    """A text in the markup of labels, in which some characters have a meaning."""
+    return re.sub(r"([*_^\\])", r"\\\1", text)
+
+
+def span(sign: str, low: float, high: float) -> str:
+    """Text for a parameter with a range of values."""
+    return f"{sign} from {low:.6g} to {high:.6g}"
+
+
+def _equal(sign: str, value: float) -> str:
+    """Text for a parameter with one value."""
+    mantissa, e, exponent = f"{value:.6g}".partition("e")
+    return f"{sign} = {mantissa}" + (f"·10^{{{int(exponent)}}}" if e else "")
+
+
 def symbol(name: str) -> str:
     """The symbol of a coordinate, or its name if it has no symbol."""
-    known = SYMBOLS | STARTS
-    return f"${known[name]}$" if name in known else name
+    return (SYMBOLS | STARTS).get(name) or plain(name)
 
 
 def named(ds: "xr.Dataset", name: str) -> str:
@@ -56,7 +75,7 @@ def named(ds: "xr.Dataset", name: str) -> str:
 
 def _sign(ds: "xr.Dataset", name: str) -> str:
     """The symbol of a coordinate in the units of the Dataset."""
-    return f"${IN_METRES[name]}$" if _unit(ds, name) and name in IN_METRES else symbol(name)
+    return IN_METRES[name] if _unit(ds, name) and name in IN_METRES else symbol(name)
 
 
 def _unit(ds: "xr.Dataset", name: str) -> str:
@@ -84,7 +103,7 @@ def title(ds: "xr.Dataset", axes: tuple[str, ...]) -> str:
     if "machine" in plan:
         # a long title up to its first colon, then what does not vary in the figure any more
         first = str(plan.get("title", "")).split(": ")[0]
-        return ", ".join([first, *_of_machine(ds, axes, varied(plan))] if first else _of_machine(ds, axes, varied(plan)))
+        return plain(", ".join([first, *_of_machine(ds, axes, varied(plan))] if first else _of_machine(ds, axes, varied(plan))))
     lost = {name for name in varied(plan) if name not in ds.coords and name not in axes}
     given = "beta" if "beta" in plan.get("system", {}) else "inverse_beta"
     drawn = set(axes) | ({*_FREQUENCIES} if {*_FREQUENCIES} & set(axes) else set())
@@ -106,7 +125,7 @@ def title(ds: "xr.Dataset", axes: tuple[str, ...]) -> str:
             known = values[np.isfinite(values)]
             if _worth_saying(ds, name, known, axes, plan):
                 sign, unit = _sign(ds, name), _unit(ds, name)
-                one = equal(sign, known[0]) if len(known) == 1 else span(sign, known[0], known[-1])
+                one = _equal(sign, known[0]) if len(known) == 1 else span(sign, known[0], known[-1])
                 one += f" {unit}" if unit else ""
                 said.append(one if len(known) == len(values) else f"{one} or none")
     return ", ".join(said)

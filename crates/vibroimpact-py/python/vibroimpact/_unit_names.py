@@ -25,9 +25,9 @@ def attributes_of(of: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def unit_of(attributes: Mapping[Any, Any]) -> str:
-    """The unit or the scale of a variable, as figures show it; empty for pure numbers and angles."""
+    """The unit or the scale of a variable, as labels of figures write it; empty for pure numbers and angles."""
     if scale := str(attributes.get("scale", "")):
-        return "$" + scale.replace("omega_n", r"\omega_n") + "$"
+        return f"*{scale.replace('omega_n', 'ω_n')}*"
     units = str(attributes.get("units", "1"))
     return "" if units in ("", "1", "rad") else fraction(units)
 
