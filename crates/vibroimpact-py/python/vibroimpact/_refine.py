@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
 
-    from vibroimpact._over import Points
+    from vibroimpact._many import Points
 
 #: Most numbers that vary: a cell has a corner for each choice of ends.
 _MOST_SIDES = 4

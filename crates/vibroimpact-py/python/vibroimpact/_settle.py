@@ -12,13 +12,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core
 from vibroimpact._ask import System
-from vibroimpact._axis import numbers
+from vibroimpact._axis import names, numbers
 from vibroimpact._machine import Machine
+from vibroimpact._many import POINT, Points, dataset, in_shape, over_points, points, whole_numbers, with_whole_numbers
 from vibroimpact._motion import Settlement
 from vibroimpact._oscillator import Oscillator
-from vibroimpact._over import Points
 from vibroimpact._progress import Progress, watched
 from vibroimpact._sample import Sample
+from vibroimpact._unit_names import attributes_of
 from vibroimpact._whole import BUDGET, maybe, threads_of
 
 if TYPE_CHECKING:
@@ -137,17 +138,17 @@ def settle_many(
         if store is None and client is None and tile is None and not isinstance(system, Machine):
             budget = maybe("impacts", impacts, BUDGET)
             return _of_points((system, over, starts), (budget, fields, transient), threads, progress)
-        from vibroimpact import _grid, _many, _over
+        from vibroimpact import _grid
         from vibroimpact._plan import Plan
 
         plan = Plan.samples(
             system, over=over, starts=starts, fields=fields, transient=transient, impacts=impacts, tile=tile
         )
         units = system.units if isinstance(system, Oscillator) else None
-        ds = _many.with_whole_numbers(_grid.computed(plan, units, store, client, threads, progress))
+        ds = with_whole_numbers(_grid.computed(plan, units, store, client, threads, progress))
         if not isinstance(system, Machine) or store is not None or any(isinstance(of, Sample) for of in (over, starts)):
             return ds
-        return _many.in_shape(ds, _over.machine_points(system, over, starts))
+        return in_shape(ds, points(system, over, starts))
     if over is not None or starts is not None or len(fields) or transient or impacts is not None or store is not None:
         raise TypeError("x as the second argument has no over, starts, fields, transient, impacts and store: write starts={\"x\": ...}")
     if not isinstance(system, Oscillator):
@@ -162,29 +163,26 @@ def _of_points(
     progress: Progress,
 ) -> "xr.Dataset":
     """The motions at points of systems and starts."""
-    from vibroimpact import _many, _over
-    from vibroimpact._axis import names
-    from vibroimpact._unit_names import attributes_of
-
-    over = _over.points(*asked)
+    over = points(*asked)
+    osc: Any = over.system
     impacts, fields, transient = options
     with watched(progress, "starts") as tell:
         found = _core.settle_points(
-            over.osc._file, over.columns, over.start, (impacts, names(fields) or [], bool(transient)), threads, tell
+            osc._file, over.columns, over.start, (impacts, names(fields) or [], bool(transient)), threads, tell
         )
     variables = {}
     for of in found:
         (first, _), *further = of["dimensions"] or [("", 0)]
-        if first == _over.POINT:
-            dims, values = _many.over_points(over, of["values"], further)
+        if first == POINT:
+            dims, values = over_points(over, of["values"], further)
         else:
             dims, values = [name for name, _ in of["dimensions"]], of["values"]
             values = np.array(values, dtype=object) if isinstance(values, list) else values
             values = values.reshape([size for _, size in of["dimensions"]])
         variables[of["name"]] = (dims, values, attributes_of(of))
         if of["name"] == "label":
-            variables |= _many.whole_numbers(dims, values)
-    return _many.dataset(over, "motions an impact oscillator settles into", variables)
+            variables |= whole_numbers(dims, values)
+    return dataset(over, "motions an impact oscillator settles into", variables)
 
 
 def _of_starts(

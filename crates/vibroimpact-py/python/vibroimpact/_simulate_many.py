@@ -1,20 +1,21 @@
 """Simulation of many motions: their events, and their states at given times, at one phase and at one position."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact import _core, _over
+from vibroimpact import _core
 from vibroimpact._ask import State, System
 from vibroimpact._axis import numbers
 from vibroimpact._core import QuestionError
+from vibroimpact._many import Over, Points, dataset, over_points, points
 from vibroimpact._motion import names_of
 from vibroimpact._machine import Machine
-from vibroimpact._over import MachineOver, Over, Points
 from vibroimpact._progress import Progress, watched
+from vibroimpact._unit_names import described
 from vibroimpact._whole import SIMULATED, threads_of, whole
 
 if TYPE_CHECKING:
@@ -118,20 +119,19 @@ def simulate_many(
     if phase is not None and turns < 1:
         raise QuestionError(f"periods = {periods} is less than one period, so there may be no state at the phase")
     strobes = None if phase is None else (_finite("phase", phase), math.floor(turns))
-    of = system if isinstance(system, Machine) else None
-    points: Over | MachineOver = _over.points(system, over, starts) if of is None else _over.machine_points(of, over, starts)  # type: ignore[arg-type]
-    crossing = None if position is None else (*_place(points.osc if isinstance(points, Over) else points.machine, position), turns)
+    over_all = points(system, over, starts)
+    of, limits = over_all.system, (limit, periods, time)
+    crossing = None if position is None else (*_place(of, position), turns)
     section = times.tolist() if times is not None else strobes or crossing
     with watched(progress, "motions") as tell:
-        if isinstance(points, MachineOver):
-            asked = _asked(points)
+        if isinstance(of, Machine):
+            asked = _asked(over_all)
             if section is None:
-                return _events_of_machines(points, _core.simulate_machines(*asked, (limit, periods, time), threads, tell))
-            return _states(points, times, _core.states_of_machines(*asked, section, threads, tell))
-        common = (points.osc._file, points.columns, points.start)
+                return _events(over_all, _core.simulate_machines(of._file, *asked, limits, threads, tell))
+            return _states(over_all, times, _core.states_of_machines(of._file, *asked, section, threads, tell))
         if section is None:
-            return _events(points, _core.simulate_points(*common, (limit, periods, time), threads, tell))
-        return _states(points, times, _core.states_of_points(*common, section, threads, tell))
+            return _events(over_all, _core.simulate_points(of._file, over_all.columns, over_all.start, limits, threads, tell))
+        return _states(over_all, times, _core.states_of_points(of._file, over_all.columns, over_all.start, section, threads, tell))
 
 
 def _place(system: System, position: float | Mapping[str, float]) -> tuple[str, float]:
@@ -168,119 +168,100 @@ def _times(at: ArrayLike) -> NDArray[np.float64]:
     return times
 
 
-def _variable(
-    points: Over | MachineOver, values: NDArray[Any], further: tuple[str, int] | None, long_name: str, scale: str, unit: str = "1", **more: Any
-) -> tuple[list[str], NDArray[Any], dict[str, Any]]:
-    from vibroimpact import _many
-    from vibroimpact._unit_names import described
-
-    dims, of = _many.over_points(points, values, () if further is None else (further,))
-    return dims, of, {**described(long_name, unit, scale), **more}
+#: The scales of times, lengths and velocities of an oscillator, and their units; those of machines are their own.
+_TIME, _LENGTH, _VELOCITY, _OWN = ("1/omega_n", "1"), ("F/k", "1"), ("omega_n F/k", "1"), ("", "")
+#: No scale, of counts and angles.
+_COUNT, _ANGLE = ("", "1"), ("", "rad")
 
 
-_TIME, _LENGTH, _VELOCITY = "1/omega_n", "F/k", "omega_n F/k"
+class _Variables:
+    """The variables of a Dataset, by name; those with a further dimension have `further`, its name and length."""
+
+    def __init__(self, over: Over, further: tuple[str, int]) -> None:
+        self.found: dict[str, Any] = {}
+        self._over, self._further = over, further
+
+    def add(
+        self, name: str, values: NDArray[Any], words: str, of: tuple[str, str], codes: Mapping[str, int] | None = None, *, each: bool = True
+    ) -> None:
+        """A variable with its description; `each` tells whether it has a value for each event or state."""
+        dims, array = over_points(self._over, values, (self._further,) if each else ())
+        scale, unit = of
+        flags = {} if codes is None else {"flag_values": list(codes.values()), "flag_meanings": " ".join(codes)}
+        self.found[name] = (dims, array, {**described(words, unit, scale), **flags})
 
 
-def _flags(codes: dict[str, int]) -> dict[str, Any]:
-    return {"flag_values": list(codes.values()), "flag_meanings": " ".join(codes)}
+def _numbered(names: Iterable[str]) -> dict[str, int]:
+    return {name: code for code, name in enumerate(names)}
 
 
-def _events(points: Over, found: dict[str, Any]) -> "xr.Dataset":
+def _title(over: Over, words: str) -> str:
+    return f"{words}: {over.system.title or 'a machine'}" if isinstance(over.system, Machine) else f"{words} of an impact oscillator"
+
+
+def _events(over: Over, found: dict[str, Any]) -> "xr.Dataset":
     """The Dataset of the events of motions."""
-    from vibroimpact import _many
-
-    event = ("event", found["room"])
-    time, phase, before, after = found["real"].reshape(4, -1)
-    ends = {name: code for code, name in enumerate(_core.end_reasons())}
-    variables = {
-        "time": _variable(points, time, event, "time of the event", _TIME),
-        "kind": _variable(points, found["kind"], event, "kind of the event", "", **_flags(_KINDS)),
-        "event_phase": _variable(points, phase, event, "phase of the force at the event", "", "rad"),
-        "side": _variable(points, found["side"], event, "1 for the first stop, -1 for the second", ""),
-        "velocity_before": _variable(points, before, event, "velocity before the impact", _VELOCITY),
-        "velocity_after": _variable(points, after, event, "velocity after the impact", _VELOCITY),
-        "count": _variable(points, found["count"], None, "number of events", ""),
-        "end": _variable(points, found["end"], None, "why the list ends", "", **_flags(ends)),
-        "end_time": _variable(points, found["end_time"], None, "time at which the list ends", _TIME),
-    }
+    machine = over.system if isinstance(over.system, Machine) else None
+    if machine is None:
+        time, phase, before, after = found["real"].reshape(4, -1)
+        width, kind, kinds, ends, clock = found["room"], found["kind"], _KINDS, _core.end_reasons(), _TIME
+    else:
+        events = found["events"]
+        time, phase, speed, *states = events["real"]
+        width, kind, kinds, ends, clock = found["width"], events["kind"], _numbered(events["kinds"]), found["ends"], _OWN
+    all_ = _Variables(over, ("event", width))
+    all_.add("time", time, "time of the event", clock)
+    all_.add("kind", kind, "kind of the event", _COUNT, kinds)
+    all_.add("event_phase", phase, f"phase of the {'force' if machine is None else 'forcing'} at the event", _ANGLE)
+    if machine is None:
+        all_.add("side", found["side"], "1 for the first stop, -1 for the second", _COUNT)
+        all_.add("velocity_before", before, "velocity before the impact", _VELOCITY)
+        all_.add("velocity_after", after, "velocity after the impact", _VELOCITY)
+    else:
+        all_.add("stop", events["stop"], "stop or joint of the event", _COUNT, _numbered(machine.stops + machine.joints))
+        all_.add("speed", speed, "speed of closing before the event", _OWN)
+        for path, values in zip((path for of in names_of(machine) for path in of), states):
+            all_.add(path, values, f"{path} after the event", _OWN)
+    all_.add("count", found["count"], "number of events", _COUNT, each=False)
+    all_.add("end", found["end"], "why the list ends", _COUNT, _numbered(ends), each=False)
+    all_.add("end_time", found["end_time"], "time at which the list ends", clock, each=False)
     # the further cells hold no events; without a copy
-    used = {name: (dims, of[..., : found["width"]] if "event" in dims else of, attrs) for name, (dims, of, attrs) in variables.items()}
-    return _many.dataset(points, "events of motions of an impact oscillator", used)
+    last = slice(None, found["width"])
+    used = {name: (dims, of[..., last] if "event" in dims else of, attrs) for name, (dims, of, attrs) in all_.found.items()}
+    return dataset(over, _title(over, "events of motions"), used)
 
 
-def _asked(points: MachineOver) -> tuple[_core.MachineFile, list[tuple[str, list[float]]], list[State]]:
-    """The machine, the numbers that vary, and the start at each point."""
-    positions, velocities = names_of(points.machine)
-    columns = {name: values.tolist() for name, values in points.columns}
-    count = len(points.columns[0][1])
+def _asked(over: Over) -> tuple[list[tuple[str, list[float]]], list[State]]:
+    """The numbers of a machine that vary, and the start at each point."""
+    columns = {name: values.tolist() for name, values in over.columns}
+    count = len(over.columns[0][1])
 
     def column(name: str, value: float) -> list[float]:
         found: list[float] = columns.pop(name, [value] * count)
         return found
 
-    q, qdot, phase = points.start
-    rows = [np.array([column(name, of) for name, of in zip(names, values)]) for names, values in ((positions, q), (velocities, qdot))]
+    q, qdot, phase = over.start
+    rows = [np.array([column(*of) for of in zip(names, values)]) for names, values in zip(names_of(over.system), (q, qdot))]
     phases = column("phase", phase)
     starts = [(rows[0][:, k].tolist(), rows[1][:, k].tolist(), phases[k]) for k in range(count)]
-    return points.machine._file, list(columns.items()), starts
+    return list(columns.items()), starts
 
 
-def _events_of_machines(points: MachineOver, found: dict[str, Any]) -> "xr.Dataset":
-    """The Dataset of the events of motions of machines."""
-    event, machine = ("event", found["width"]), points.machine
-    events, stops = found["events"], machine.stops + machine.joints
-    names, kinds, ends = ({name: code for code, name in enumerate(of)} for of in (stops, events["kinds"], found["ends"]))
-    time, phase, speed, *states = events["real"]
-    variables = {
-        "time": _variable(points, time, event, "time of the event", "", ""),
-        "kind": _variable(points, events["kind"], event, "kind of the event", "", **_flags(kinds)),
-        "event_phase": _variable(points, phase, event, "phase of the forcing at the event", "", "rad"),
-        "stop": _variable(points, events["stop"], event, "stop or joint of the event", "", **_flags(names)),
-        "speed": _variable(points, speed, event, "speed of closing before the event", "", ""),
-        "count": _variable(points, found["count"], None, "number of events", ""),
-        "end": _variable(points, found["end"], None, "why the list ends", "", **_flags(ends)),
-        "end_time": _variable(points, found["end_time"], None, "time at which the list ends", "", ""),
-    }
-    paths = [path for of in names_of(machine) for path in of]
-    variables |= {path: _variable(points, values, event, f"{path} after the event", "", "") for path, values in zip(paths, states)}
-    return _dataset_of_machines(points, variables, "events of motions")
-
-
-def _states(
-    points: Over | MachineOver, times: NDArray[np.float64] | None, found: tuple[int, list[NDArray[np.float64]]]
-) -> "xr.Dataset":
+def _states(over: Over, times: NDArray[np.float64] | None, found: tuple[int, list[NDArray[np.float64]]]) -> "xr.Dataset":
     """The Dataset of states: at given times, or of a section."""
-    from vibroimpact import _many
-    from vibroimpact._unit_names import described
-
     width, (time, phase, *states) = found
-    further = ("state" if times is None else "time", width)
-    if isinstance(points, MachineOver):
-        paths = [path for of in names_of(points.machine) for path in of]
-        names, clock, forcing = [(path, path, ("", "")) for path in paths], ("", ""), "phase of the forcing"
+    all_ = _Variables(over, ("state" if times is None else "time", width))
+    if isinstance(over.system, Machine):
+        names = [(path, _OWN) for of in names_of(over.system) for path in of]
+        clock, forcing = _OWN, "phase of the forcing"
     else:
-        names = [("position", "position", (_LENGTH, "1")), ("velocity", "velocity", (_VELOCITY, "1"))]
-        clock, forcing = (_TIME, "1"), "phase of the force"
-    variables = {} if times is not None else {"time": _variable(points, time, further, "time since the start", *clock)}
-    variables |= {name: _variable(points, of, further, words, *scale) for (name, words, scale), of in zip(names, states)}
-    variables["force_phase"] = _variable(points, phase, further, forcing, "", "rad")
-    title = "states of motions" if times is not None else "sections of motions"
-    if isinstance(points, MachineOver):
-        ds = _dataset_of_machines(points, variables, title)
-    else:
-        ds = _many.dataset(points, f"{title} of an impact oscillator", variables)
+        names, clock, forcing = [("position", _LENGTH), ("velocity", _VELOCITY)], _TIME, "phase of the force"
+    if times is None:
+        all_.add("time", time, "time since the start", clock)
+    for (name, scale), values in zip(names, states):
+        all_.add(name, values, name, scale)
+    all_.add("force_phase", phase, forcing, _ANGLE)
+    ds = dataset(over, _title(over, "states of motions" if times is not None else "sections of motions"), all_.found)
     at = {} if times is None else {"time": ("time", times, described("time since the start", clock[1], clock[0]))}
     whole: xr.Dataset = ds.assign_coords(at)
     return whole
-
-
-def _dataset_of_machines(points: MachineOver, variables: dict[str, Any], title: str) -> "xr.Dataset":
-    import xarray as xr
-
-    from vibroimpact import _accessor  # registers ds.vibro
-
-    # what varies has the name of a variable: it is that of the start
-    starts = {name: f"start.{name}" for name in points.coords if name in variables}
-    coords = {starts.get(name, name): of for name, of in points.coords.items()}
-    attributes = {"title": f"{title}: {points.machine.title or 'a machine'}", "source": f"vibroimpact {_core.__version__}"}
-    return xr.Dataset(variables, coords, attributes)
