@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from vibroimpact import _core
 from vibroimpact._core import QuestionError
-from vibroimpact._points import shown_path
 from vibroimpact._stated import SYMBOLS, along, named, plain, span, symbol, title
 from vibroimpact._unit_names import unit_of
 
@@ -147,6 +146,13 @@ def _points(ds: "xr.Dataset", varied: list[str]) -> dict[str, Any]:
     xs, ys = (ds[name].values.astype(np.float64) for name in (across, up))
     figure = _core.scattered_figure(xs, ys, codes_of(ds["label"], "label", _NOT_COMPUTED).astype(np.int32))
     return _named(figure, named(ds, across), named(ds, up), title(ds, (across, up)))
+
+
+def shown_path(ds: "xr.Dataset") -> str:
+    """The path of the coordinate, velocity or quantity that a diagram of a machine shows; empty if it shows none."""
+    task = json.loads(ds.attrs.get("plan", "{}")).get("task", {})
+    shown = str(task.get("diagram", {}).get("show", ""))
+    return shown if shown in ds.data_vars and shown not in _ORDINATES else ""
 
 
 def _ordinates(ds: "xr.Dataset") -> dict[str, str]:
