@@ -1,6 +1,6 @@
 //! The rules that every motion keeps, on machines of all families.
 
-use vibroimpact::events::{End, Limits, Motion};
+use vibroimpact::events::{End, EventKind, Limits, Motion, Start};
 use vibroimpact_cases::{Budget, DrawnFamily, FAMILIES, faults, rounded};
 
 /// Everyday 10 machines of each family; with `VIBROIMPACT_LONG=1` 60, more than a thousand together.
@@ -49,5 +49,39 @@ fn soft_cradles_come_to_an_end() {
         let mut motion = Motion::new(&machine, &start, Limits::default()).unwrap();
         let events = motion.by_ref().take(10_000).count();
         assert_eq!(motion.end(), Some(End::Never), "{seed}: {events} events");
+    }
+}
+
+/// A chain of equal bodies that touch, which swing against each other ever more gently. Its motions end whatever rounding errors are
+/// added: to put a body exactly on a stop once moved others off the stops on which they rested, and the flight after that ended at
+/// the same stop again and again, without an event.
+#[test]
+fn chains_that_touch_come_to_an_end() {
+    let case = DrawnFamily::named("chains").unwrap().case(50);
+    for seed in 0..60 {
+        let (machine, start) = rounded(&case, seed);
+        let mut motion = Motion::new(&machine, &start, Limits::default()).unwrap();
+        let events = motion.by_ref().take(10_000).count();
+        assert_eq!(motion.end(), Some(End::Never), "{seed}: {events} events");
+    }
+}
+
+/// Nothing loads this chain, so its motion in any scale is the same: slow impacts come when they come to bodies a million times as
+/// fast. While bodies moved on their places were taken for rounding errors, and five impacts of a period happened at one time.
+#[test]
+fn slow_impacts_come_as_fast_ones() {
+    const SCALE: f64 = (1_u64 << 24) as f64;
+    let case = DrawnFamily::named("chains").unwrap().case(50);
+    let of =
+        |start: &Start| -> Vec<_> { Motion::new(&case.machine, start, Limits::default()).unwrap().take(62).collect() };
+    let all = of(&case.start);
+    let begin = all.iter().position(|event| event.time > 4.5 && event.kind == EventKind::Impact).unwrap();
+    let scaled = |of: &[f64]| of.iter().map(|value| SCALE * value).collect();
+    let again = of(&Start { q: scaled(&all[begin].q), qdot: scaled(&all[begin].qdot), ..Start::default() });
+    assert_eq!(all.len() - begin, 36);
+    for (late, fast) in all[begin + 1..].iter().zip(&again) {
+        let (time, speed) = (late.time - all[begin].time, late.speed * SCALE);
+        assert!((time - fast.time).abs() < 1e-4 * fast.time, "{} {time} {}", late.speed, fast.time);
+        assert!((speed - fast.speed).abs() < 2e-2 * fast.speed, "{} {speed} {}", late.speed, fast.speed);
     }
 }

@@ -17,7 +17,7 @@ async function saved(page, format) {
  * The number of points along each axis of what is exported, fewer than the page offers: each figure and table is computed
  * three times, by the page, by this program and by the command.
  */
-const FEW = "40";
+const FEW = "20";
 
 /** Chooses a number of points for the export, offered or not. */
 async function choosePoints(page, points) {
@@ -120,7 +120,7 @@ export async function figures_of_quantities_and_machines_are_those_of_their_comm
     for (const [hash, points, wanted] of [
       [`#${window}&colour=power&range=0,0.5&starts=2&of=smallest`, FEW, /--colour power --of smallest --colour-range 0:0\.5 --plot/],
       ["#view=1.25,1.35,1.4,1.6&impacts=200&layers=stripes&starts=2", "80", /:80 (?!.*--refine).* --plot/],
-      [`#${window}&machine=0.8,12000,30&colour=power`, FEW, /--mass-kg 0\.8 .*--frequency-hz \S+:40 .*--colour power/],
+      [`#${window}&machine=0.8,12000,30&colour=power`, FEW, /--mass-kg 0\.8 .*--frequency-hz \S+:20 .*--colour power/],
       ["#view=1,1.5,0.5,2.5&impacts=200&point=1&inverse_beta=1.3&gap=1&line=1.1,1.5,1.1,2.2&panel=line&layers=paper,amplitude,boundaries", FEW,
         /--layers amplitude,paper,boundaries --mark 1\.3,1 --line 1\.1,1\.5:1\.1,2\.2 --plot/],
       [`#machine=0.8,12000,30&x=beta&point=1&beta=0.77&gap=0.75&view=0.74,0.82,0.6,1&impacts=200&layers=${regions}paper,amplitude,stripes`, FEW,

@@ -263,8 +263,8 @@ impl Motion<'_> {
             }
         }
         // on the stops exactly, without the rounding error of the time
-        self.normal.move_by(&gaps, &mut self.place.x);
-        self.normal.move_by(&rates, &mut self.place.v);
+        self.normal.move_beside(&before, &gaps, &mut self.place.x);
+        self.normal.move_beside(&before, &rates, &mut self.place.v);
         self.change(&before, &closing, candidates, &ended);
     }
 }

@@ -220,7 +220,7 @@ impl Motion<'_> {
             change_along(&along(|of| of.0), &mut there.x);
             change_along(&along(|of| of.1), &mut there.v);
         }
-        self.instants.silence(&mut there.x, &mut there.v, 1);
+        let silenced = self.instants.silence(&mut there.x, &mut there.v, 1);
         there.known.retain(|(kind, _)| !places.contains(&kind.place(stops)));
         // they were those before the coordinates have moved
         there.gaps.retain(|of| there.states[of.stop] == ContactState::Closed);
@@ -233,6 +233,9 @@ impl Motion<'_> {
         there.states = states;
         for (kind, count) in known {
             there.note(kind, count);
+        }
+        if silenced {
+            there.close_rests(machine, normal);
         }
         let opens = |at: &usize| *at < stops && there.states[*at] == ContactState::Open;
         (!places.iter().any(opens)).then_some(there)

@@ -46,11 +46,14 @@ impl Motion<'_> {
             happenings = self.impacts(&rigid, (&speeds, sizes), &mut candidates)?;
         }
         self.meet(&soft, before, sizes.as_deref(), &turns, &mut candidates);
-        self.instants.silence(&mut self.place.x, &mut self.place.v, 1);
+        self.silenced |= self.instants.silence(&mut self.place.x, &mut self.place.v, 1);
         self.touch_faintly(&soft, &turns, &mut candidates);
         self.add_candidates(before, &turns, &mut candidates);
         if !candidates.is_empty() {
             self.resolve(&candidates, ended)?;
+        }
+        if core::mem::take(&mut self.silenced) {
+            self.place.close_rests(self.machine, &self.normal);
         }
         happenings.extend(self.state_changes(before, (closing, &rigid), &speeds, &turns));
         let open = |j: &usize| self.place.states[*j] == ContactState::Open;
@@ -178,7 +181,7 @@ impl Motion<'_> {
                 rates.push((j, rate));
             }
         }
-        self.normal.move_by(&rates, &mut self.place.v);
+        self.normal.move_beside(&self.place.states, &rates, &mut self.place.v);
         for (j, _) in rates {
             self.place.known.retain(|(kind, _)| *kind != GuardKind::Depth(j));
             self.place.states[j] = ContactState::Open;

@@ -204,19 +204,26 @@ impl Instants {
     }
 
     /// Takes away what rounding errors have left of coordinates and velocities that were larger of late: a structure whose bodies
-    /// stop each other exactly is at rest, and no force is left. `steps` is the number of sums that each has gone through.
-    pub(super) fn silence(&self, x: &mut [f64], v: &mut [f64], steps: usize) {
+    /// stop each other exactly is at rest, and no force is left. `steps` is the number of sums that each has gone through. Returns
+    /// whether anything was taken away: contacts at rest need not be closed exactly then.
+    pub(super) fn silence(&self, x: &mut [f64], v: &mut [f64], steps: usize) -> bool {
         #[allow(clippy::cast_precision_loss)] // at most some thousands
         let noise = NOISE * f64::EPSILON * steps as f64;
+        let mut any = false;
         for ((x, v), speed) in x.iter_mut().zip(v).zip(&self.speeds) {
             let least = noise * speed;
-            if v.abs() <= least {
-                *v = 0.0;
+            if v.abs() > least {
+                // where it moves on, its place says when it arrives
+                continue;
             }
+            any |= *v != 0.0;
+            *v = 0.0;
             if x.abs() <= least * self.longest {
+                any |= *x != 0.0;
                 *x = 0.0;
             }
         }
+        any
     }
 
     /// Keeps a change after a short flight.

@@ -45,6 +45,8 @@ pub struct Motion<'a> {
     pub(super) scratch: Scratch,
     /// Whether the outcome of the last impacts depends on an order that is below rounding.
     pub(super) tie: bool,
+    /// Whether rounding errors of the state were taken away at this event.
+    pub(super) silenced: bool,
     /// Events since the time last advanced.
     pub(super) crowd: u32,
     pub(super) instants: Instants,
@@ -310,6 +312,7 @@ impl<'a> Motion<'a> {
             spare: [None, None],
             scratch: Scratch::default(),
             tie: false,
+            silenced: false,
             crowd: 0,
             instants: Instants::default(),
             largest_impact: 0.0,

@@ -222,6 +222,24 @@ impl Place {
         }
     }
 
+    /// Closes exactly the contacts on which the structure rests, and stops the joints that hold: all at once.
+    pub(super) fn close_rests(&mut self, machine: &Machine, normal: &Normal) {
+        let stops = machine.stops().len();
+        let turns = self.turns(normal);
+        let (mut gaps, mut rates) = (Vec::new(), Vec::new());
+        for at in (0..self.states.len()).filter(|at| self.states[*at].constrains()) {
+            if at < stops {
+                let (gap, rate) = self.gap_and_rate(normal, &turns, at);
+                gaps.push((at, gap));
+                rates.push((at, rate));
+            } else {
+                rates.push((at, -self.sliding(machine, normal, at - stops).0));
+            }
+        }
+        normal.move_by(&gaps, &mut self.x);
+        normal.move_by(&rates, &mut self.v);
+    }
+
     /// Opens a compliant stop with this law at the zero of a guard, where it has this gap and rate.
     pub(super) fn open(&mut self, law: &StopLaw, kind: GuardKind, j: usize, (gap, rate): (f64, f64)) {
         self.states[j] = ContactState::Open;

@@ -67,7 +67,7 @@ impl Motion<'_> {
         // exactly no velocity, so that no stop opens by rounding
         self.normal.move_by(&stays, &mut after);
         if !alone {
-            self.instants.silence(&mut self.place.x, &mut after, rounds.len());
+            self.silenced |= self.instants.silence(&mut self.place.x, &mut after, rounds.len());
         }
         self.place.v = after;
         if let Some(passage) = &mut self.passage {

@@ -1,5 +1,6 @@
 //! A machine in mass-normalised coordinates $`x = L^Tq`$, $`M = LL^T`$, in which kinetic energy is $`|\dot x|^2/2`$.
 
+use super::contact_state::ContactState;
 use super::signal::Signal;
 use super::translations::Translations;
 use crate::machine::{HarmonicMotion, Machine, MachineParts, Stop, StopLaw};
@@ -137,11 +138,24 @@ impl Normal {
         self.factor.solve_lower_transposed_into(x, q);
     }
 
-    /// Moves coordinates so that the gap of each of some stops, or the place of a joint, changes by an amount: all at once, so
-    /// that a symmetric state stays one.
+    /// Moves coordinates, or velocities, so that the gap of each of some stops, or the place of a joint, changes by an amount: all at
+    /// once, so that a symmetric state stays one.
     pub(crate) fn move_by(&self, amounts: &[(usize, f64)], x: &mut [f64]) {
-        let along: Vec<(&[f64], f64)> =
-            amounts.iter().map(|(at, amount)| (&self.directions[*at][..], *amount)).collect();
+        self.move_beside(&[], amounts, x);
+    }
+
+    /// The same without a change of what rests and holds in these states of stops and joints, unless it is among those that change.
+    pub(crate) fn move_beside(&self, states: &[ContactState], amounts: &[(usize, f64)], x: &mut [f64]) {
+        let of = |at: usize, amount: f64| (&self.directions[at][..], amount);
+        let mut along: Vec<(&[f64], f64)> = amounts.iter().map(|(at, amount)| of(*at, *amount)).collect();
+        let own = along.len();
+        let is_kept = |at: &usize| states[*at].constrains() && amounts.iter().all(|(own, _)| own != at);
+        along.extend((0..states.len()).filter(is_kept).map(|at| of(at, 0.0)));
+        let (moved, kept) = along.split_at(own);
+        let meet = moved.iter().any(|(w, _)| kept.iter().any(|(other, _)| dot(w, other) != 0.0));
+        if !meet {
+            along.truncate(own);
+        }
         change_along(&along, x);
     }
 
