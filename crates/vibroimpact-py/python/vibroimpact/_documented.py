@@ -46,7 +46,8 @@ def completed(text: str, section: str, names: Iterable[str], told: Callable[[str
 
 
 @lru_cache
-def _schema(verb: str | None = None) -> dict[str, Any]:
+def schema(verb: str | None = None) -> dict[str, Any]:
+    """The schema of the answer to a command, or else that of plans."""
     found: dict[str, Any] = json.loads(_core.schema(verb))
     return found
 
@@ -54,7 +55,7 @@ def _schema(verb: str | None = None) -> dict[str, Any]:
 @lru_cache
 def fields_of(task: str) -> dict[str, Any]:
     """The schema of the fields of a task in a plan."""
-    known = _schema()["$defs"]
+    known = schema()["$defs"]
     of = next(one["properties"][task] for one in known["Task"]["oneOf"] if task in one["properties"])
     fields: dict[str, Any] = (known[of["$ref"].rpartition("/")[2]] if "$ref" in of else of)["properties"]
     return fields
@@ -64,7 +65,7 @@ def of_field(of: dict[str, Any]) -> tuple[str, str]:
     """The type of a field, and its words."""
     kinds = of.get("type", "string")
     kind = kinds if isinstance(kinds, str) else kinds[0]
-    return {"integer": "int", "number": "float", "array": "sequence of str"}.get(kind, "str"), of.get("description", "")
+    return {"integer": "int", "number": "float", "boolean": "bool", "array": "sequence of str"}.get(kind, "str"), of.get("description", "")
 
 
 class Attributes:
@@ -78,7 +79,7 @@ class Attributes:
         for base in (owner, *(base for base in owner.__mro__[1:] if base.__name__.startswith("_"))):
             kinds |= {name: of.kind for name, of in vars(base).items() if getattr(of, "kind", "")} | base.__annotations__
         verb, *definitions = owner._schema or ("",)
-        objects = [_schema(verb)["$defs"][of] for of in definitions] + [_schema(verb)] if verb else []
+        objects = [schema(verb)["$defs"][of] for of in definitions] + [schema(verb)] if verb else []
 
         def told(name: str) -> tuple[str, str]:
             if name == "system":
