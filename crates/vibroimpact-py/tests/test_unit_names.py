@@ -6,7 +6,7 @@ import pint
 import pytest
 import vibroimpact as vi
 from vibroimpact import _core
-from vibroimpact._unit_names import fraction, unit_of
+from vibroimpact._stated import fraction, unit_of
 
 MACHINE = vi.Oscillator.from_units(mass=2, stiffness=800, force=4, omega=25, gap=0.005, damping=1.5, restitution=0.5)
 

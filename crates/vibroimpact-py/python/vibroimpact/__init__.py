@@ -42,7 +42,7 @@ Results contain arrays. `plot()` draws a figure, `to_dict()` returns the fields 
 from typing import TYPE_CHECKING
 
 from vibroimpact import _questions, dask
-from vibroimpact._axis import Span, span
+from vibroimpact._arguments import Span, set_threads, span
 from vibroimpact._contact import Contact, contact
 from vibroimpact._continued import (
     Branch, BranchEvent, Curve, CurveEvent, MarginEnd, Margins, MotionBox, Nearest, Origin, ParameterMargin, Part, Polygon, Region, Response,
@@ -51,6 +51,7 @@ from vibroimpact._continued import (
 from vibroimpact._core import QuestionError, StoppedError, StoreError, __version__
 from vibroimpact._lyapunov import Closings, Lyapunov, Strobes
 from vibroimpact._machine import Machine
+from vibroimpact._many import settle_many, simulate_many
 from vibroimpact._motion import (
     Attractor, Attractors, EarlierContact, Edge, Events, Measured, Motion, Orbit, Orbits, Settled, Settlement, Simulation, Waveform,
 )
@@ -63,10 +64,7 @@ from vibroimpact._questions import (
 from vibroimpact._refine import refine
 from vibroimpact._register import register as _register
 from vibroimpact._sample import Sample, sample
-from vibroimpact._settle import settle_many
-from vibroimpact._simulate_many import simulate_many
 from vibroimpact._store import Ran, Status, Verified, open, resume, run, status, verify
-from vibroimpact._whole import set_threads
 
 if TYPE_CHECKING:
     from vibroimpact._accessor import VibroAccessor

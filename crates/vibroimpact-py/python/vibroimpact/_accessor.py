@@ -8,7 +8,7 @@ import xarray as xr
 from vibroimpact import _core
 from vibroimpact._core import QuestionError
 from vibroimpact._datasets import codes_of, figure_of
-from vibroimpact._names import here, restored
+from vibroimpact._stated import here, restored
 from vibroimpact._oscillator import Units
 from vibroimpact._paint import paint
 

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from vibroimpact import _core
-from vibroimpact._axis import numbers
+from vibroimpact._arguments import numbers
 from vibroimpact._motion import Events, Motion, complex_of
 from vibroimpact._oscillator import Oscillator
 from vibroimpact._result import Answer, Made, View, column, field, part, parts

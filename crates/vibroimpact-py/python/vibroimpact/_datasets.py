@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from vibroimpact import _core
 from vibroimpact._core import QuestionError
-from vibroimpact._stated import SYMBOLS, along, named, plain, span, symbol, title
-from vibroimpact._unit_names import unit_of
+from vibroimpact._stated import SYMBOLS, along, named, plain, span, symbol, title, unit_of
 
 if TYPE_CHECKING:
     import xarray as xr

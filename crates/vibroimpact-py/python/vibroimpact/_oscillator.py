@@ -11,7 +11,7 @@ from vibroimpact._core import QuestionError
 from vibroimpact._documented import completed, of_field, schema
 
 if TYPE_CHECKING:
-    from vibroimpact import _questions, _settle, _simulate_many
+    from vibroimpact import _many, _questions
 
 T = TypeVar("T")
 F = TypeVar("F", bound=Callable[..., Any])
@@ -53,9 +53,9 @@ class Questions:
 
     if TYPE_CHECKING:
         simulate = _questions.simulate
-        simulate_many = _simulate_many.simulate_many
+        simulate_many = _many.simulate_many
         settle = _questions.settle
-        settle_many = _settle.settle_many
+        settle_many = _many.settle_many
         attractors = _questions.attractors
         lyapunov = _questions.lyapunov
         orbits = _questions.orbits

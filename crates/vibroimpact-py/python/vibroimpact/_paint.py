@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 _INCHES, _POINTS = 0.01, 0.64
 #: Number of points from which they are drawn as an image in a vector graphic.
 _MANY = 50_000
+#: Number of cells of a class above which they are one path.
+_MANY_CELLS = 500
 _DASHES = {"solid": "-", "dashed": "--", "dotted": ":", "dash_dot": "-."}
 _SHAPES = {
     "circle": "o", "square": "s", "diamond": "D", "triangle_up": "^", "triangle_down": "v", "triangle_right": ">", "triangle_left": "<",
@@ -229,16 +231,22 @@ def _points(ax: "Axes", of: Mapping[str, Any], order: float) -> None:
 
 
 def _rects(ax: "Axes", of: Mapping[str, Any], order: float) -> None:
-    from matplotlib.collections import PolyCollection
+    from matplotlib.collections import PathCollection
+    from matplotlib.path import Path
 
     sides = np.array([(*one["x"], *one["y"]) for one in of["rects"]], dtype=np.float64).reshape(-1, 4)
     classes = np.array([one["class"] for one in of["rects"]])
     for number, style in enumerate(of["styles"]):
         left, right, low, high = sides[classes == number].T
         if len(left):
-            corners = np.array([[left, low], [right, low], [right, high], [left, high]]).transpose(2, 0, 1)
+            corners = np.array([[left, low], [right, low], [right, high], [left, high], [left, low]]).transpose(2, 0, 1)
+            # the hatch of many cells is drawn once
+            many = corners[None].reshape(1, -1, 2) if len(left) > _MANY_CELLS else corners
+            codes = np.tile([Path.MOVETO, Path.LINETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY], many.shape[1] // 5)
             # neighbours join without a seam
-            ax.add_collection(PolyCollection(list(corners), **_fill(style), antialiased=False, zorder=order))
+            paths = [Path(one, codes) for one in many]
+            ax.add_collection(PathCollection(paths, **_fill(style), antialiased=False, zorder=order), autolim=False)
+            ax.update_datalim(corners.reshape(-1, 2))
 
 
 def _raster(ax: "Axes", of: Mapping[str, Any], order: float) -> None:

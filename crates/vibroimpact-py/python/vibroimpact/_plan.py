@@ -11,13 +11,11 @@ import numpy as np
 
 from vibroimpact import _core
 from vibroimpact._ask import Start, System
-from vibroimpact._axis import names
-from vibroimpact._budget import Budget, seconds
+from vibroimpact._arguments import BLOCKS, BUDGET, SHARD, TILE, Budget, maybe, names, seconds, threads_of, whole
 from vibroimpact._machine import Machine
 from vibroimpact._many import Points, points
 from vibroimpact._oscillator import Oscillator
 from vibroimpact._sample import Sample
-from vibroimpact._whole import BLOCKS, BUDGET, SHARD, TILE, maybe, threads_of, whole
 
 if TYPE_CHECKING:
     from vibroimpact import _questions

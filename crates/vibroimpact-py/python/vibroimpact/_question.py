@@ -11,11 +11,9 @@ from vibroimpact._ask import Start, System, answered
 from vibroimpact._core import QuestionError
 from vibroimpact._documented import completed, fields_of, of_field
 from vibroimpact._oscillator import Oscillator
-from vibroimpact._plan import Plan
-from vibroimpact._plan import made as made_plan
-from vibroimpact._progress import Progress
+from vibroimpact._plan import Plan, made as made_plan
+from vibroimpact._arguments import Progress, ranges, whole
 from vibroimpact._result import Answer
-from vibroimpact._whole import ranges, whole
 
 #: The parts of a start of any system, and those that only the start of a machine has beside a label.
 START, STATE = ("x", "v", "q", "qdot", "phase"), ("q", "qdot", "phase")
@@ -140,7 +138,7 @@ def grid(task: str) -> Callable[[Callable[..., tuple[Mapping[str, Any], Mapping[
             system: System, *given: Any, store: Any = None, client: Any = None, threads: int = 0, progress: Progress = None,
             **options: Any,
         ) -> Any:
-            from vibroimpact._grid import computed
+            from vibroimpact._store import computed
 
             plan = make(system, *given, **options)
             return computed(plan, system.units if isinstance(system, Oscillator) else None, store, client, threads, progress)

@@ -8,14 +8,13 @@ from collections.abc import Sequence
 
 import numpy as np
 from vibroimpact import _core
-from vibroimpact._axis import axes, beside, interval, names, plane, sweep
+from vibroimpact._arguments import SEED, STARTS, axes, beside, interval, names, plane, sweep, whole
 from vibroimpact._continued import Branch, Curve, Margins, Region, Response
 from vibroimpact._core import QuestionError
 from vibroimpact._lyapunov import Lyapunov
 from vibroimpact._motion import Attractors, Edge, Orbits, Settled, Simulation
 from vibroimpact._oscillator import Oscillator
 from vibroimpact._question import START, STATE, grid, known, numbered, plan_of, question
-from vibroimpact._whole import SEED, STARTS, whole
 
 
 def _events(system, task):

@@ -7,8 +7,8 @@ from typing import SupportsIndex
 import xarray as xr
 from distributed import Client
 from numpy.typing import ArrayLike
+from vibroimpact._arguments import Axis, Interval, Progress
 from vibroimpact._ask import System
-from vibroimpact._axis import Axis, Interval
 from vibroimpact._continued import Branch
 from vibroimpact._continued import Curve
 from vibroimpact._continued import Margins
@@ -21,7 +21,6 @@ from vibroimpact._motion import Orbits
 from vibroimpact._motion import Settled
 from vibroimpact._motion import Simulation
 from vibroimpact._plan import Plan
-from vibroimpact._progress import Progress
 
 def simulate(
     system: System, *, impacts: SupportsIndex | None = None, periods: float | None = None, time: float | None = None,

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact import _core
-from vibroimpact._axis import Interval, interval
+from vibroimpact._arguments import SAMPLES, SEED, Interval, interval, whole
 from vibroimpact._core import QuestionError
-from vibroimpact._whole import SAMPLES, SEED, whole
 
 
 class Sample(Mapping[str, NDArray[np.float64]]):
