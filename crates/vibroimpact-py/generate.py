@@ -113,9 +113,9 @@ def questions() -> Iterator[tuple[str, Any]]:
 
 def text() -> str:
     """The stub."""
-    known = tasks(json.loads(_core.plan_schema()))
+    known = tasks(json.loads(_core.schema()))
     results = {(of.returns.__module__, of.returns.__name__) for _, of in questions() if of.returns is not None}
-    own = {("vibroimpact._ask", "System"), ("vibroimpact._axis", "Axis, Interval"), ("vibroimpact._progress", "Progress")}
+    own = {("vibroimpact._ask", "System"), ("vibroimpact._arguments", "Axis, Interval, Progress")}
     imports = "\n".join(f"from {module} import {names}" for module, names in sorted(results | own))
     lines = [signature(name, of, known[of.task]) for name, of in questions()]
     return HEAD.format(imports=imports) + "\n" + "".join(lines)

@@ -11,10 +11,10 @@ mod command;
 mod door;
 mod error;
 mod events;
+mod figure;
 mod grid;
 mod machine;
 mod oscillator;
-mod palette;
 mod plan;
 mod points;
 mod region;
@@ -34,6 +34,8 @@ mod _core {
     #[pymodule_export]
     use crate::error::{QuestionError, StoppedError, StoreError};
     #[pymodule_export]
+    use crate::figure::{cells_figure, class_colour, diagram_figure, scattered_figure};
+    #[pymodule_export]
     use crate::grid::{basin_measures, fill, labels_of, span_values};
     #[pymodule_export]
     use crate::machine::{
@@ -42,11 +44,8 @@ mod _core {
     #[pymodule_export]
     use crate::oscillator::OscillatorFile;
     #[pymodule_export]
-    use crate::palette::{look_of, palette};
-    #[pymodule_export]
     use crate::plan::{
-        body_parameters, checked_plan, coordinate_words, fixed_coordinates, plan_schema, point_coordinates,
-        scales_of_points,
+        body_parameters, checked_plan, coordinate_words, fixed_coordinates, point_coordinates, scales_of_points, schema,
     };
     #[pymodule_export]
     use crate::points::{drawn_points, settle_points};

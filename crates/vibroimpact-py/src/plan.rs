@@ -39,10 +39,11 @@ pub(crate) fn points(plan: &Plan) -> u64 {
     work.map_or(0, |(points, _)| points)
 }
 
-/// The schema of plans as JSON, from which `generate.py` writes the types of the questions.
+/// The schema of the answer to a command, or else that of plans, as JSON: documentation and types of the package are made of them.
 #[pyfunction]
-pub(crate) fn plan_schema() -> Result<String, Trouble> {
-    text(&Plan::schema())
+#[pyo3(signature = (verb=None))]
+pub(crate) fn schema(verb: Option<&str>) -> Result<String, Trouble> {
+    text(&verb.and_then(vibroimpact_report::json::schema).unwrap_or_else(Plan::schema))
 }
 
 /// A plan in the form in which it is stored, its hash, its title, and the number of points of its grid.

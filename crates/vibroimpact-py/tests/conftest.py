@@ -2,10 +2,12 @@
 
 import os
 import subprocess
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
+from typing import Any
 
 import matplotlib
+import numpy as np
 import pytest
 
 matplotlib.use("Agg")
@@ -62,6 +64,36 @@ def vibro() -> Callable[..., subprocess.CompletedProcess[str]]:
         return subprocess.run([program, *map(str, words)], capture_output=True, text=True, timeout=120)
 
     return run
+
+
+def _colours_at(ax: Any, xs: Iterable[float], y: float) -> set[str]:
+    """The colours of the cells of a figure at some places of a row."""
+    from matplotlib.collections import QuadMesh
+    from matplotlib.colors import to_hex
+
+    found = set()
+    for x in xs:
+        for drawn in reversed(ax.collections):
+            if isinstance(drawn, QuadMesh):
+                corners, values = np.asarray(drawn.get_coordinates()), np.ma.asarray(drawn.get_array())
+                across, up = np.sort(corners[0, :, 0]), np.sort(corners[:, 0, 1])
+                column, row = np.searchsorted(across, x) - 1, np.searchsorted(up, y) - 1
+                if not (0 <= column < values.shape[1] and 0 <= row < values.shape[0]):
+                    continue
+                column = column if corners[0, 0, 0] < corners[0, -1, 0] else values.shape[1] - 1 - column
+                row = row if corners[0, 0, 1] < corners[-1, 0, 1] else values.shape[0] - 1 - row
+                if values[row, column] is not np.ma.masked:
+                    found.add(to_hex(drawn.to_rgba(values[row, column])))
+                    break
+            elif any(path.contains_point((x, y)) for path in drawn.get_paths()):
+                found.add(to_hex(drawn.get_facecolor()[0]))
+                break
+    return found
+
+
+@pytest.fixture(scope="session")
+def colours_at() -> Callable[[Any, Iterable[float], float], set[str]]:
+    return _colours_at
 
 
 @pytest.fixture(autouse=True)

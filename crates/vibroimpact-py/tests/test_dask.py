@@ -23,6 +23,8 @@ def cluster() -> Iterator["distributed.LocalCluster"]:
     # after this time the cluster gives up a dead worker of this name, which may be a later victim,
     # and a dead worker is repeatedly asked for a result that it had
     settings = {"distributed.deploy.lost-worker-timeout": "1 hour", "distributed.comm.timeouts.connect": "2 s"}
+    # workers are forked from a process that has imported what takes them two seconds
+    settings["distributed.worker.multiprocessing-method"] = "forkserver"
     with dask.config.set(settings), distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=True, dashboard_address=":0") as cluster:
         yield cluster
 

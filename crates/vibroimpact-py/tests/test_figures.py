@@ -9,9 +9,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib.axes import Axes
+from matplotlib.colors import to_hex
 
 import vibroimpact as vi
-from vibroimpact import _palette
+from vibroimpact import _core
 
 
 def words(ax: Axes) -> list[str]:
@@ -53,7 +54,7 @@ def test_a_branch_is_solid_where_it_is_stable_and_dashed_where_not() -> None:
     drawn(ax)
     assert words(ax) == ["1/1", "2/2", "1/2", "stable", "unstable", "flip", "fold", "grazing"]
     flip = found.events[0].parameter
-    stable = [line for line in ax.lines if len(line.get_xdata()) > 5 and line.get_color().startswith(_palette.class_colour("1/1"))]
+    stable = [line for line in ax.lines if len(line.get_xdata()) > 5 and line.get_color().startswith(_core.class_colour("1/1"))]
     assert stable and all(line.get_linestyle() == "-" and np.nanmax(line.get_xdata()) <= flip + 1e-9 for line in stable)
     dashed = [line for line in ax.lines if len(line.get_xdata()) > 5 and line.get_linestyle() == "--"]
     assert dashed and all(np.nanmin(line.get_xdata()) >= flip - 1e-9 for line in dashed)
@@ -85,35 +86,41 @@ def test_they_are_drawn(s: vi.Oscillator, draw: Callable[[vi.Oscillator], Any]) 
     assert ax.get_xlabel() and (ax.lines or ax.patches or ax.collections)
 
 
-def test_cells_have_the_colours_of_their_motions(s: vi.Oscillator) -> None:
+def test_cells_have_the_colours_of_their_motions(s: vi.Oscillator, colours_at: Callable[..., set[str]]) -> None:
     ds = vi.basin(s, x="-4:0.75:30", v="-4:4:20")
     ax = ds.vibro.plot()
     drawn(ax)
-    assert words(ax) == ["1/1", "2/1"] and ax.get_xlabel() == r"$\xi_0$" and ax.get_ylabel() == "$u_0$"
-    mesh = ax.collections[0]
-    shown = np.asarray(mesh.get_array()).reshape(20, 30)
-    expected = np.searchsorted(["1/1", "2/1"], ds.vibro.labels().values)
-    np.testing.assert_array_equal(shown, expected)
+    assert [word.split(",")[0] for word in words(ax)] == ["2/1", "1/1"] and (ax.get_xlabel(), ax.get_ylabel()) == ("$ξ_{0}$", "$u_{0}$")
+    for j, i in ((0, 0), (5, 11), (12, 20), (19, 29), (9, 1)):
+        x, v = ds["x"].values[i], ds["v"].values[j]
+        assert colours_at(ax, [x], v) == {_core.class_colour(ds.vibro.labels().values[j, i])}
     colours = [matplotlib.colors.to_hex(patch.get_facecolor()) for patch in ax.get_legend().get_patches()]
-    assert colours == [_palette.class_colour("1/1"), _palette.class_colour("2/1")]
-    with pytest.raises(vi.QuestionError, match="a figure has two axes, and there are 1"):
-        ds.isel(x=0).vibro.plot()
+    assert colours == [_core.class_colour("2/1"), _core.class_colour("1/1")]
+    # over one axis each start has a bar
+    line = ds.isel(v=0).vibro.plot(plt.subplots()[1])
+    assert [colours_at(line, [x], 0.5) for x in ds["x"].values] == [{_core.class_colour(of)} for of in ds.vibro.labels().values[0]]
 
 
-def test_a_cell_is_divided_between_its_motions(s: vi.Oscillator) -> None:
+def test_a_cell_is_divided_between_its_motions(s: vi.Oscillator, colours_at: Callable[..., set[str]]) -> None:
     ds = vi.region_map(s, {"inverse_beta": "1.2:1.3:2", "gap": "0.7:0.8:2"}, starts=20)
-    counts = (ds.vibro.labels() != "").sum("motion")
-    assert counts.max() >= 2
-    shown = np.asarray(ds.vibro.plot().collections[0].get_array()).reshape(2, 24)
-    for j in range(2):
-        for i in range(2):
-            assert len(set(shown[j, 12 * i : 12 * i + 12].tolist())) == counts.values[j, i]
+    labels, ax = ds.vibro.labels(), ds.vibro.plot()
+    assert (labels != "").sum("motion").max() >= 2
+    for j, gap in enumerate((0.7, 0.8)):
+        for i, x in enumerate((1.2, 1.3)):
+            there = {_core.class_colour(of) for of in labels.values[j, i] if of}
+            assert colours_at(ax, np.linspace(x - 0.04, x + 0.04, 24), gap) == there
 
 
 def test_a_region_is_filled_and_bounded(s: vi.Oscillator) -> None:
     ax = vi.region(s, "1/1", {"inverse_beta": (0.4, 2), "gap": (-1, 5)}).plot()
     assert words(ax)[:4] == ["1/1 exists, unstable", "1/1 stable", "fold", "flip"]
     assert ax.get_xlim() == (0.4, 2) and ax.get_ylim() == (-1, 5) and ax.get_title() == "$ε$ = 0.5"
+
+
+def steps(values: Any) -> Any:
+    """The numbers of the colours of values."""
+    known = values[np.isfinite(values)]
+    return np.minimum((values - known.min()) / (known.max() - known.min()) * 256, 255).astype(int)
 
 
 def coloured(ds: Any, **options: Any) -> tuple[Axes, Any]:
@@ -126,9 +133,9 @@ def coloured(ds: Any, **options: Any) -> tuple[Axes, Any]:
 def test_cells_have_the_colours_of_a_quantity(s: vi.Oscillator) -> None:
     ds = vi.basin(s, x="-4:0.75:30", v="-4:4:20", fields=["impact_speed_max"])
     ax, mesh = coloured(ds, colour="impact-speed-max")
-    np.testing.assert_array_equal(np.asarray(mesh.get_array()).reshape(20, 30), ds["impact_speed_max"].values)
-    assert mesh.get_cmap().name == "viridis" and ax.get_legend() is None
-    assert ax.figure.axes[1].get_ylabel() == r"largest impact speed ($\omega_n F/k$)"
+    np.testing.assert_array_equal(np.asarray(mesh.get_array()), steps(ds["impact_speed_max"].values))
+    assert to_hex(mesh.to_rgba(255)) == "#fde725" and ax.get_legend() is None
+    assert ax.figure.axes[1].get_ylabel() == "largest impact speed ($ω_{n} F/k$)"
 
 
 def test_a_colour_is_that_of_the_worst_motion_unless_another_is_asked_for(s: vi.Oscillator) -> None:
@@ -142,7 +149,7 @@ def test_a_colour_is_that_of_the_worst_motion_unless_another_is_asked_for(s: vi.
         ("likeliest", speeds.isel(motion=0)),
     ]:
         ax, mesh = coloured(ds, colour="impact_speed_max", of=of)
-        np.testing.assert_array_equal(np.asarray(mesh.get_array()).reshape(5, 4), expected.transpose("gap", ...).values)
+        np.testing.assert_array_equal(np.asarray(mesh.get_array()), steps(expected.transpose("gap", ...).values))
     assert ax.get_legend().get_title().get_text() == "where motions coexist: the most frequent motion"
     assert bool((speeds.max("motion") > speeds.min("motion")).any())
     with pytest.raises(vi.QuestionError, match="`median` is no way to choose"):
@@ -174,9 +181,9 @@ def test_metres_and_seconds_in_colours() -> None:
     osc = vi.Oscillator.from_units(mass=2, stiffness=800, force=4, frequency=2.5, gap=0.003, restitution=0.6)
     ds = vi.basin(osc, x="-4:0.6:12", v="-4:4:10", fields=["impact_loss_per_period"]).vibro.si()
     ax, mesh = coloured(ds, colour="impact_loss_per_period")
-    np.testing.assert_array_equal(np.asarray(mesh.get_array()).ravel(), ds["impact_loss_per_period"].values.ravel())
+    np.testing.assert_array_equal(np.asarray(mesh.get_array()), steps(ds["impact_loss_per_period"].values))
     assert ax.figure.axes[1].get_ylabel() == "energy lost in impacts per forcing period (J)"
-    assert ax.get_xlabel() == "$x_0$ (m)" and ax.get_ylabel() == "$v_0$ (m/s)" and "$d = 0.003$ m" in ax.get_title()
+    assert ax.get_xlabel() == "$x_{0}$ (m)" and ax.get_ylabel() == "$v_{0}$ (m/s)" and "$d$ = 0.003 m" in ax.get_title()
     ax = vi.orbit_diagram(osc, "gap", "0.5:1:3").vibro.si().vibro.plot()
     assert ax.get_xlabel() == "$d$ (m)" and ax.get_ylabel() == "arrival velocity (m/s)"
     xs = np.concatenate([of.get_xdata() for of in ax.get_lines()])
@@ -202,9 +209,7 @@ def test_every_figure_takes_axes_a_title_and_properties_of_lines(s: vi.Oscillato
 
 
 def test_a_label_has_one_colour(s: vi.Oscillator) -> None:
-    from matplotlib.colors import to_hex
-
-    from vibroimpact._palette import class_colour
+    from vibroimpact._core import class_colour
 
     def lines(ax: Axes, label: str) -> set[str]:
         return {to_hex(of.get_color()) for of in ax.get_lines() if of.get_label() == label}
@@ -220,20 +225,19 @@ def test_a_map_over_one_axis(s: vi.Oscillator) -> None:
     ax = ds.vibro.plot()
     drawn(ax)
     assert ax.get_ylabel() == "share of starts" and ax.get_ylim() == (0, 1)
-    heights = sum(np.array([bar.get_height() for bar in bars]) for bars in ax.containers)
-    np.testing.assert_allclose(heights, 1)
-    first = ax.containers[0]
-    labels = ds.vibro.labels()
-    assert words(ax)[0] == first.get_label() == "no impact"
-    np.testing.assert_allclose([bar.get_height() for bar in first], ds["share"].where(labels == "0", 0).sum("motion"))
+    labels, bars = ds.vibro.labels(), {to_hex(of.get_facecolor()[0]): [path.get_extents() for path in of.get_paths()] for of in ax.collections}
+    np.testing.assert_allclose(sum(bar.height for of in bars.values() for bar in of), len(ds["gap"]))
+    free = ds["share"].where(labels == "0", 0).sum("motion").values
+    assert words(ax)[0] == "no impact"
+    np.testing.assert_allclose([bar.height for bar in bars[_core.class_colour("0")]], free[free > 0])
     dots = ds.vibro.plot(colour="impact_speed_mean")
     drawn(dots)
     speeds = ds["impact_speed_mean"].values
     shown = [line for line in dots.lines if line.get_marker() == "o"]
     assert sum(len(line.get_xdata()) for line in shown) == np.isfinite(speeds).sum()
     assert {"undecided", "not defined"} <= set(words(dots))
-    marks = {line.get_label(): len(line.get_xdata()) for line in dots.lines}
-    assert marks["undecided"] == (labels == "undecided").sum() and marks["not defined"] == (labels == "0").sum()
+    marks = {line.get_marker(): len(line.get_xdata()) for line in dots.lines if len(line.get_xdata())}
+    assert marks["x"] == (labels == "undecided").sum() and marks["+"] == (labels == "0").sum()
 
 
 def test_colours_that_are_refused(s: vi.Oscillator) -> None:

@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 
 import vibroimpact as vi
-from vibroimpact import _core, _grid
+from vibroimpact import _core, _store
 
 
 def test_each_start_has_the_motion_it_settles_into(s: vi.Oscillator) -> None:
@@ -125,7 +125,7 @@ def test_python_adds_next_to_nothing(s: vi.Oscillator) -> None:
     clock.append(time.process_time())
     found = _core.fill(plan.json, 0, None)
     clock.append(time.process_time())
-    assert _grid._dataset(plan, None, *found)["label"].shape == (1000, 1000)
+    assert _store._dataset(plan, None, *found)["label"].shape == (1000, 1000)
     clock.append(time.process_time())
     before, work, after = np.diff(clock)
     assert before + after < 0.05 * work

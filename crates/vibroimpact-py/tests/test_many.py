@@ -162,10 +162,10 @@ def test_progress_counts_starts(s: vi.Oscillator) -> None:
 def test_points_are_drawn_over_the_first_two_that_vary() -> None:
     ds = vi.settle_many(SAMPLES)
     ax = ds.vibro.plot()
-    assert (ax.get_xlabel(), ax.get_ylabel()) == (r"$1/\beta$", r"$\delta$") and r"\varepsilon$ from" in ax.get_title()
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("1/$β$", "$δ$") and "$ε$ from" in ax.get_title()
     drawn = np.concatenate([line.get_xdata() for line in ax.get_lines()])
     assert sorted(drawn.tolist()) == sorted(SAMPLES["inverse_beta"].tolist())
     legend = ax.get_legend()
-    assert legend is not None and len(legend.get_texts()) == len(ax.get_lines())
+    assert legend is not None and len(legend.get_texts()) == sum(len(line.get_xdata()) > 0 for line in ax.get_lines())
     with pytest.raises(vi.QuestionError, match="the points differ in gap only"):
         vi.settle_many(vi.Oscillator(beta=1, gap=0, restitution=0.5), over={"gap": [0.5, 1.0]}).vibro.plot()

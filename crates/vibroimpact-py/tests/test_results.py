@@ -91,10 +91,18 @@ def test_results_that_have_no_figure_show_their_text() -> None:
 
 
 def test_the_accessor_is_there_whoever_is_imported_first() -> None:
-    for program in ("import vibroimpact, xarray", "import xarray, vibroimpact"):
-        code = f"{program}\nimport xarray, sys\nprint(hasattr(xarray.Dataset, 'vibro'), isinstance(xarray.Dataset().vibro, vibroimpact.VibroAccessor))"
-        run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-        assert run.stdout.strip() == "True True", run.stderr
+    code = """
+import sys, warnings
+import vibroimpact, xarray
+print(isinstance(xarray.Dataset().vibro, vibroimpact.VibroAccessor))
+for name in [name for name in sys.modules if name.startswith("vibroimpact") and name != "vibroimpact._core"]:
+    del sys.modules[name]
+del xarray.Dataset.vibro
+import vibroimpact
+print(isinstance(xarray.Dataset().vibro, vibroimpact.VibroAccessor))
+"""
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert run.stdout.split() == ["True", "True"], run.stderr
     with pytest.raises(AttributeError, match="no attribute `nothing`"):
         vi.nothing  # noqa: B018
 
@@ -106,13 +114,13 @@ def test_the_accessor_after_what_xarray_does(s: vi.Oscillator) -> None:
     some = ds.where(ds["gap"] > 0.6)
     assert (some.vibro.labels().sel(gap=0.5) == "").all() and (some.vibro.labels().sel(gap=1.0) == words.sel(gap=1.0)).all()
     ax = some.vibro.plot()
-    assert ax.get_xlabel() == r"$1/\beta$" and r"\varepsilon = 0.5" in ax.get_title()
+    assert ax.get_xlabel() == "1/$β$" and "$ε$ = 0.5" in ax.get_title()
     renamed = ds.rename(gap="clearance", label="motion_label")
     assert (renamed.vibro.labels().values == words.values).all()
     ax = renamed.vibro.plot()
-    assert ax.get_ylabel() == r"$\delta$" and "not known" not in ax.get_title()
+    assert ax.get_ylabel() == "$δ$" and "not known" not in ax.get_title()
     slices = [renamed.isel(clearance=k) for k in (1, 2)]
-    assert [r"\delta = 0.75" in one.vibro.plot().get_title() for one in slices] == [True, False]
+    assert ["$δ$ = 0.75" in one.vibro.plot().get_title() for one in slices] == [True, False]
     joined = xr.concat([ds.isel(gap=[0]), ds.isel(gap=[1, 2])], "gap")
     assert (joined.vibro.labels() == words).all() and joined.vibro.plot().get_title() == ds.vibro.plot().get_title()
 
@@ -120,7 +128,7 @@ def test_the_accessor_after_what_xarray_does(s: vi.Oscillator) -> None:
 def test_a_slice_shows_its_own_parameters(s: vi.Oscillator) -> None:
     ds = vi.region_map(s, {"inverse_beta": "1:1.5:5", "gap": [0.5, 0.75, 1.0]}, starts=4)
     for k, gap in enumerate((0.5, 0.75, 1.0)):
-        assert rf"\delta = {gap:g}$" in ds.isel(gap=k).vibro.plot().get_title()
+        assert f"$δ$ = {gap:g}" in ds.isel(gap=k).vibro.plot().get_title()
     basins = vi.basin(HAMMER, {"q.head": [-1.0, 0.0], "qdot.head": [-1.0, 0.0, 1.0], "phase": [0.0, 1.5]})
     for k, phase in enumerate((0.0, 1.5)):
         title = basins.isel(phase=k).vibro.plot().get_title()
@@ -129,12 +137,6 @@ def test_a_slice_shows_its_own_parameters(s: vi.Oscillator) -> None:
 
 
 def test_legends_name_what_they_hide() -> None:
-    from vibroimpact._palette import LEGEND, legend_text
-
-    assert legend_text("m/n", ["5/3"]) == "5/3" and legend_text("m/n", ["4/3", "5/3", "4/3"]) == "4/3, 5/3"
-    assert legend_text("inf/n", ["inf/1"]) == "∞/1" and legend_text("2/1", ["2/1"]) == "2/1"
-    assert legend_text("1/n", [f"1/{n}" for n in range(4, 12)]) == "1/4, 1/5, 1/6, 1/7 and 4 more"
-    assert legend_text("chaotic", ["chaotic"]) == LEGEND["chaotic"]
     ds = vi.region_map(vi.Oscillator(beta=1, gap=0, restitution=0.5), {"inverse_beta": "0.9:1.2:13", "gap": "0:3:13"}, starts=4)
     there = set(ds.vibro.labels().values.ravel().tolist()) - {""}
     legend = ds.vibro.plot().get_legend()

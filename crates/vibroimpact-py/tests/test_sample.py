@@ -114,11 +114,6 @@ over = [{ vary = "inverse_beta", from = 1, to = 2 }, { vary = "gap", from = 0, t
     np.testing.assert_array_equal(table["gap"], points["gap"])
     ds = vi.settle_many(points, over={"restitution": 0.5}, fields=["impact_speed_max"], store=place, tile=16)
     assert np.array_equal(ds["label"].values, memory["label"].values)
-    from vibroimpact._export import table as exported
-    from vibroimpact._store import with_status
-
-    frame = exported(with_status(place))
-    assert frame.columns.tolist() == table.columns.tolist()
 
 
 def test_the_workers_of_a_cluster_fill_it(tmp_path: Path) -> None:

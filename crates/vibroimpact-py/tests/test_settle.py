@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact._axis import numbers
+from vibroimpact._arguments import numbers
 
 
 def test_the_motion_at_s_is_the_published_cycle(s: vi.Oscillator) -> None:

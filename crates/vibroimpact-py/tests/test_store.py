@@ -139,7 +139,7 @@ def test_a_complete_store_is_not_written_to(plan: vi.Plan, tmp_path: Path) -> No
 
 
 def test_killed_and_resumed(tmp_path: Path, u: vi.Oscillator) -> None:
-    plan = vi.Plan.basin(u, {"x": "-4:3:60", "v": "-4:4:60"}, tile=10)
+    plan = vi.Plan.basin(u, {"x": "-4:3:45", "v": "-4:4:45"}, tile=9)
     vi.run(plan, tmp_path / "one.zarr")
     (tmp_path / "plan.json").write_text(plan.json)
     program = f"import vibroimpact as vi; vi.run(vi.Plan.read({str(tmp_path / 'plan.json')!r}), {str(tmp_path / 'two.zarr')!r})"

@@ -45,7 +45,7 @@ pub struct BranchPlan<V = Parameter> {
     /// How many of the branches that begin at flips and branch points are followed as well: 0 to 100.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub follow: u32,
-    /// Points of each branch at most.
+    /// Largest number of points of each branch, 2 to 100000.
     #[serde(default = "points")]
     pub points: u32,
 }

@@ -24,7 +24,7 @@ pub struct EdgePlan<V = Coordinate> {
     /// are periods of the slowest free oscillation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub laps: Option<u32>,
-    /// Impacts, of a machine events, to follow each start for, at most, as for a map.
+    /// Budget of impacts for each start, of a machine of events, 1 to 1000000; 20000 when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impacts: Option<u32>,
 }

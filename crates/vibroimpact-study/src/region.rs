@@ -19,13 +19,14 @@ const MOST_GRID: u32 = 400;
 #[serde(deny_unknown_fields, bound = "V: Name")]
 #[schemars(rename = "RegionPlan", bound = "V: Name")]
 pub struct RegionPlan<V = Parameter> {
-    /// m/n.
+    /// The label m/n of the motion.
     pub label: String,
     /// The number on the abscissa and its range.
     pub across: Stretch<V>,
     /// The number on the ordinate and its range.
     pub up: Stretch<V>,
-    /// Number of grid points in each direction at which orbits are searched. Smaller parts of a region may be missed.
+    /// Number of points of the grid in each direction at which orbits are searched, 2 to 400. Parts of the region between its
+    /// points may be missed.
     #[serde(default = "grid")]
     pub grid: u32,
 }

@@ -20,18 +20,20 @@ pub enum Task {
         /// Where an oscillator starts; at rest when absent.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         start: Option<StartPlan>,
-        /// Impacts, of a machine events, to follow it for, at most, as for a map; the default of `SettleOptions` when absent.
+        /// Budget of impacts, of a machine of events, 1 to 1000000; 20000 when absent. A motion that has not settled by then is
+        /// undecided.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         impacts: Option<u32>,
     },
     /// The motions that scattered starts settle into, and their shares.
     Attractors {
-        /// How many starts.
+        /// Number of starts, 1 to 1000000000.
         starts: u64,
-        /// Which sequence of them.
+        /// Seed of their sequence.
         #[serde(default = "one")]
         seed: u64,
-        /// Impacts to follow each start for, at most, as for a map; the default of `SettleOptions` when absent.
+        /// Budget of impacts for each start, of a machine of events, 1 to 1000000; 20000 when absent. Motions that have not
+        /// settled by then are undecided.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         impacts: Option<u32>,
     },

@@ -17,7 +17,10 @@ async function saved(page, format) {
  * The number of points along each axis of what is exported, fewer than the page offers: each figure and table is computed
  * three times, by the page, by this program and by the command.
  */
-const FEW = "40";
+const FEW = "20";
+
+/** A window with few pixels, whose points the server computes before the command has the range of the colours. */
+const TINY = { viewport: { width: 340, height: 290 } };
 
 /** Chooses a number of points for the export, offered or not. */
 async function choosePoints(page, points) {
@@ -120,13 +123,13 @@ export async function figures_of_quantities_and_machines_are_those_of_their_comm
     for (const [hash, points, wanted] of [
       [`#${window}&colour=power&range=0,0.5&starts=2&of=smallest`, FEW, /--colour power --of smallest --colour-range 0:0\.5 --plot/],
       ["#view=1.25,1.35,1.4,1.6&impacts=200&layers=stripes&starts=2", "80", /:80 (?!.*--refine).* --plot/],
-      [`#${window}&machine=0.8,12000,30&colour=power`, FEW, /--mass-kg 0\.8 .*--frequency-hz \S+:40 .*--colour power/],
+      [`#${window}&machine=0.8,12000,30&colour=power`, FEW, /--mass-kg 0\.8 .*--frequency-hz \S+:20 .*--colour power/],
       ["#view=1,1.5,0.5,2.5&impacts=200&point=1&inverse_beta=1.3&gap=1&line=1.1,1.5,1.1,2.2&panel=line&layers=paper,amplitude,boundaries", FEW,
         /--layers amplitude,paper,boundaries --mark 1\.3,1 --line 1\.1,1\.5:1\.1,2\.2 --plot/],
       [`#machine=0.8,12000,30&x=beta&point=1&beta=0.77&gap=0.75&view=0.74,0.82,0.6,1&impacts=200&layers=${regions}paper,amplitude,stripes`, FEW,
         new RegExp(`--mass-kg 0\\.8 .*--layers ${regions}amplitude,paper,stripes --mark \\S+,0\\.001875 --plot`)],
     ]) {
-      const { page } = await open(hash, { acceptDownloads: true, viewport: { width: 340, height: 290 } });
+      const { page } = await open(hash, { ...TINY, acceptDownloads: true });
       await page.waitForSelector("#plane[data-picture]");
       if (hash.includes("colour")) await page.waitForSelector("#legend .bar-colours[data-range]");
       // the range of the colours in the command is that of the tiles that are there, so it changes until all are
@@ -158,7 +161,7 @@ export async function every_export_is_that_of_its_command({ open, address }) {
       ["#machine=0.8,12000,30&x=beta&point=1&beta=0.77&gap=0.75&damping=0.02&start=0.1,0.2,0.3&view=0.7,1,0.4,2.2&line=0.7,1,0.8,1.2&layers=stripes&impacts=200&colour=displacement_max",
         "--mass-kg 0.8", /_(hz|m|s|m_per_s)\b|^re,im$|^section,/],
     ]) {
-      const { page } = await open(hash, { ...SMALL, acceptDownloads: true });
+      const { page } = await open(hash, { ...TINY, acceptDownloads: true });
       await drawn(page, hash.includes("colour"));
       await page.waitForSelector("#point .note:not(:empty)");
       if (hash.includes("colour")) await page.waitForSelector("[data-name=basin] .bar-colours[data-range]");

@@ -1,5 +1,5 @@
-//! Verdicts that were wrong once, by the numbers they have in CORRECTNESS.md, and the families they belong to: each verdict against its own
-//! motion followed ten times as far, each start alone and in company.
+//! Verdicts that were wrong once, by the numbers of their entries in the history of CORRECTNESS.md, and the families they belong
+//! to: each verdict against its own motion followed ten times as far, each start alone and in company.
 
 use vibroimpact::chaos::{ExponentOptions, Grounds, exponents};
 use vibroimpact::events;

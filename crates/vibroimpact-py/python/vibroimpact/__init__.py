@@ -42,19 +42,19 @@ Results contain arrays. `plot()` draws a figure, `to_dict()` returns the fields 
 from typing import TYPE_CHECKING
 
 from vibroimpact import _questions, dask
-from vibroimpact._attractors import Attractor, Attractors
-from vibroimpact._axis import Span, span
-from vibroimpact._branch import Branch, BranchEvent, Origin
+from vibroimpact._arguments import Span, set_threads, span
 from vibroimpact._contact import Contact, contact
+from vibroimpact._continued import (
+    Branch, BranchEvent, Curve, CurveEvent, MarginEnd, Margins, MotionBox, Nearest, Origin, ParameterMargin, Part, Polygon, Region, Response,
+    ResponseCurve,
+)
 from vibroimpact._core import QuestionError, StoppedError, StoreError, __version__
-from vibroimpact._curve import Curve, CurveEvent
-from vibroimpact._edge import Edge
-from vibroimpact._events import Events
 from vibroimpact._lyapunov import Closings, Lyapunov, Strobes
 from vibroimpact._machine import Machine
-from vibroimpact._margins import MarginEnd, Margins, MotionBox, Nearest, ParameterMargin
-from vibroimpact._motion import Measured, Motion
-from vibroimpact._orbits import EarlierContact, Orbit, Orbits
+from vibroimpact._many import settle_many, simulate_many
+from vibroimpact._motion import (
+    Attractor, Attractors, EarlierContact, Edge, Events, Measured, Motion, Orbit, Orbits, Settled, Settlement, Simulation, Waveform,
+)
 from vibroimpact._oscillator import Oscillator, Questions, Units
 from vibroimpact._plan import Estimate, Plan
 from vibroimpact._questions import (
@@ -62,16 +62,9 @@ from vibroimpact._questions import (
     simulate,
 )
 from vibroimpact._refine import refine
-from vibroimpact._region import Part, Polygon, Region
 from vibroimpact._register import register as _register
-from vibroimpact._response import Response, ResponseCurve
 from vibroimpact._sample import Sample, sample
-from vibroimpact._settle import Settled, Settlement, settle_many
-from vibroimpact._simulate import Simulation
-from vibroimpact._simulate_many import simulate_many
 from vibroimpact._store import Ran, Status, Verified, open, resume, run, status, verify
-from vibroimpact._waveform import Waveform
-from vibroimpact._whole import set_threads
 
 if TYPE_CHECKING:
     from vibroimpact._accessor import VibroAccessor

@@ -7,8 +7,10 @@ import xarray as xr
 
 from vibroimpact import _core
 from vibroimpact._core import QuestionError
-from vibroimpact._names import here, restored
+from vibroimpact._datasets import codes_of, figure_of
+from vibroimpact._stated import here, restored
 from vibroimpact._oscillator import Units
+from vibroimpact._paint import paint
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,21 +44,13 @@ class VibroAccessor:
             name = "label"
         if name != "label" and "flag_meanings" not in array.attrs:
             raise QuestionError(f"`{name}` has no codes: it lacks the attribute flag_meanings")
-        values = array.values
-        if values.dtype.kind == "f":
-            # points that are in none of several aligned Datasets are nan
-            values = np.where(np.isfinite(values), values, _NOTHING)
-            broken = values[values != np.round(values)]
-            if len(broken):
-                raise QuestionError(
-                    f"`{name}` has the value {broken[0]:g}, which is no code\nhint: codes are names, so means and interpolations have no meaning"
-                )
-        codes, places = np.unique(values.astype(np.int64), return_inverse=True)
+        values = codes_of(array, name, _NOTHING)
+        codes, places = np.unique(values, return_inverse=True)
         if name == "label":
             words = _core.labels_of(codes.tolist())
         else:
-            values = np.asarray(array.attrs["flag_values"]).tolist()
-            meanings = dict(zip(values, str(array.attrs["flag_meanings"]).split()))
+            flags = np.asarray(array.attrs["flag_values"]).tolist()
+            meanings = dict(zip(flags, str(array.attrs["flag_meanings"]).split()))
             words = [meanings.get(code, "") for code in codes.tolist()]
         text = np.array(words, dtype=np.str_)[places].reshape(array.shape)
         return xr.DataArray(text, array.coords, array.dims, attrs={"long_name": array.attrs.get("long_name", name)})
@@ -153,26 +147,8 @@ class VibroAccessor:
         >>> ds = region_map(osc, over, starts=4, fields=["impact_speed_max"])
         >>> ax = ds.vibro.plot(colour="impact_speed_max")
         >>> ax.figure.axes[1].get_ylabel()
-        'largest impact speed ($\\\\omega_n F/k$)'
+        'largest impact speed ($ω_{n} F/k$)'
         """
-        from vibroimpact._styled import styled
-
-        return styled(lambda ax: self._drawn(ax, which, colour, of), ax, legend, title, line)
-
-    def _drawn(self, ax: "Axes | None", which: str | None, colour: str | None, of: str) -> "Axes":
-        from vibroimpact import _cells, _clouds, _coloured, _scatter
-
-        ds = restored(self._ds)
-        if _clouds.is_diagram(ds):
-            if colour is not None:
-                raise QuestionError("only basins and maps have colours by a quantity\nhint: which=... is the ordinate")
-            return _clouds.plot(ds, ax, which)
-        if "label" in ds:
-            if colour is None and _scatter.sides(ds):
-                return _scatter.plot(ds, ax)
-            if colour is not None:
-                return _coloured.plot(ds, ax, colour, of)
-            return _cells.plot(ds, ax)
-        raise QuestionError(
-            "this Dataset is none that vibroimpact draws\nhint: those of basin, region_map and orbit_diagram have a figure"
-        )
+        figure = figure_of(restored(self._ds), which, colour, of)
+        drawn: Axes = paint(figure, ax, legend, title, line)
+        return drawn

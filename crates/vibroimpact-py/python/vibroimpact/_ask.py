@@ -11,8 +11,7 @@ from vibroimpact import _core
 from vibroimpact._core import QuestionError
 from vibroimpact._machine import Machine
 from vibroimpact._oscillator import Oscillator
-from vibroimpact._progress import Progress, watched
-from vibroimpact._whole import threads_of
+from vibroimpact._arguments import Progress, threads_of, watched
 
 #: Coordinates, velocities and phase of a machine.
 State: TypeAlias = tuple[list[float], list[float], float]

@@ -1,38 +1,26 @@
 """The contact of a mass with a spring and a damper."""
 
+from __future__ import annotations
+
 import json
 from typing import Any
 
 import numpy as np
 
 from vibroimpact import _core
-from vibroimpact._result import Column, Made, View, rows
+from vibroimpact._result import Answer, Made, column
 
 
-class Contact(View):
-    """Contacts in closed form, a row for each way to open. Numbers are in SI units.
-
-    Attributes
-    ----------
-    opening : ndarray of str
-        When the contact opens: "force", when its force falls to zero, or "position", where its spring is relaxed again.
-    restitution, damping_ratio, mass, stiffness, damping, frequency : ndarray
-        What determines the contact; the frequency is that of the mass on the spring, in Hz.
-    contact_time : ndarray
-        From closing to opening; nan for a contact that never opens.
-    depth_max, force_max, residual_depth : ndarray
-        The largest depth and force, and the depth at the opening.
-    speed : float
-        The speed of approach, to which depths and forces belong.
-    """
+class Contact(Answer, schema="contact ContactObject"):
+    """Contacts in closed form, a row for each way to open. Numbers are in SI units."""
 
     speed: float
     #: A contact is no task of a plan.
     plan = None  # type: ignore[assignment]
     _rows: Made[list[dict[str, Any]]] = Made(lambda view: view._of["contacts"])
-    opening = Column(np.str_)
-    restitution, damping_ratio, mass, stiffness, damping, frequency = (Column(np.float64) for _ in range(6))
-    contact_time, depth_max, force_max, residual_depth = (Column(np.float64) for _ in range(4))
+    opening = column(np.str_)
+    restitution, damping_ratio, mass, stiffness, damping, frequency = (column(np.float64) for _ in range(6))
+    contact_time, depth_max, force_max, residual_depth = (column(np.float64) for _ in range(4))
 
     def __init__(self, asked: str) -> None:
         answer, self._drawn = _core.contact(asked)
@@ -43,7 +31,8 @@ class Contact(View):
 
     def _table(self) -> dict[str, Any]:
         """One row for each way to open."""
-        return rows(self._rows)
+        names = dict.fromkeys(name for row in self._rows for name in row)
+        return {name: [row.get(name) for row in self._rows] for name in names}
 
     def _figure(self, **options: Any) -> dict[str, Any]:
         figure: dict[str, Any] = json.loads(self._drawn)

@@ -8,14 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact import _core
-from vibroimpact._figure import heading, named
 from vibroimpact._motion import Motion, all_measured, maybe_measured
-from vibroimpact._result import Field, Made, Part, View, equal
+from vibroimpact._oscillator import Oscillator
+from vibroimpact._paint import named
+from vibroimpact._result import Answer, Made, equal, field, part
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _Floats = NDArray[np.float64]
+#: The first colour of series.
+_BLUE = "#0072b2"
 
 
 class Closings(NamedTuple):
@@ -36,43 +39,26 @@ class Strobes(NamedTuple):
     qdot: _Floats
 
 
-class Lyapunov(View):
+class Lyapunov(Answer, schema="lyapunov"):
     """The Lyapunov exponents of a motion with error bars, two for each coordinate, and sections of its attractor.
 
     Attributes
     ----------
-    system : Oscillator or Machine
-        The system.
-    motion : Motion
-        The motion after the transient.
-    exponents, exponents_per_period : tuple of Measured or None
-        The exponents, the largest first, per unit of time and per forcing period; None if the motion ended before.
-    sum : Measured or None
-        The measured sum of both exponents of an oscillator.
-    identity : float or None
-        The exact value of the sum: 2 ln(eps) times the rate of impacts, minus 2 zeta.
-    impacts_per_period : Measured or None
-        Number of closings of stops per forcing period.
-    exact : bool
-        Whether the exponents are those of a cycle or of a motion without impacts, and not measured.
+    exponents : tuple of Measured or None
+        The exponents, the largest first, per unit of time; None if the motion ended before.
     dimension, flow_dimension : Measured or None
         Kaplan-Yorke dimension of the stroboscopic section, and of the flow; None if the largest exponent is not known to differ from 0.
-    grounds : dict or None
-        How the exponents of an oscillator were obtained: "kind" is "measured", "no_impact", "sticks", "stuck", "touches" or
-        "undecided".
     closings, strobes : named tuples of ndarray
         Points of both sections; empty unless requested.
-    plan : str
-        The plan as JSON.
     """
 
     identity: float | None
     exact: bool
     grounds: dict[str, Any] | None
-    exponents, exponents_per_period = Field(all_measured), Field(all_measured)
-    sum, impacts_per_period = Field(maybe_measured), Field(maybe_measured)
-    motion = Part(Motion)
-    dimension, flow_dimension = Field(maybe_measured, "dimension.section"), Field(maybe_measured, "dimension.flow")
+    exponents, exponents_per_period = field(all_measured), field(all_measured)
+    sum, impacts_per_period = field(maybe_measured), field(maybe_measured)
+    motion = part(Motion)
+    dimension, flow_dimension = field(maybe_measured, "dimension.section"), field(maybe_measured, "dimension.flow")
 
     _points: Made[dict[str, Any]] = Made(lambda of: (of._answer and of._answer.columns()) or _no_points(of._of))
     closings: Made[Closings] = Made(
@@ -86,8 +72,6 @@ class Lyapunov(View):
     def __eq__(self, other: object) -> bool:
         same = super().__eq__(other)
         return same if same is not True else equal((self.closings, self.strobes), (other.closings, other.strobes))  # type: ignore[attr-defined]
-
-    __hash__ = None
 
     def __repr__(self) -> str:
         first = f"{self.exponents[0].value:.5g} +- {self.exponents[0].error:.1g}" if self.exponents else "unknown"
@@ -112,27 +96,26 @@ class Lyapunov(View):
         known = [(k + 1, of.value, np.nan_to_num(of.error)) for k, of in enumerate(self.exponents) if np.isfinite(of.value)]
         if not known:
             raise _core.QuestionError("there are no finite exponents to draw")
-        from vibroimpact._palette import SERIES
-
         place, value, error = np.array(known).T
         bars = [[low, high, np.nan] for low, high in zip(value - error, value + error)]
-        look = {"colour": SERIES[0], "size": 10, "shape": "circle", "filled": True, "rim": None}
-        stroke = {"colour": SERIES[0], "width": 2.5, "dash": "solid"}
+        look = {"colour": _BLUE, "size": 10, "shape": "circle", "filled": True, "rim": None}
+        stroke = {"colour": _BLUE, "width": 2.5, "dash": "solid"}
         marks = [
             {"h_line": {"y": 0.0, "stroke": {"colour": "#999999", "width": 1.2, "dash": "solid"}}},
             {"points": {"xs": place, "ys": value, "style": look}},
             {"line": {"xs": np.repeat(place, 3), "ys": np.concatenate(bars), "stroke": stroke}},
         ]
+        system = self.system
+        heading = _core.title_of(system._file) if isinstance(system, Oscillator) else str(system.title or "machine").split(": ")[0]
         count, name = len(self.exponents), "exact" if self.exact else "with three standard errors"
         ticks = [{"value": k, "label": str(k)} for k in range(1, count + 1)]
         across = {"label": "number of the exponent", "scale": "linear", "range": (0.5, count + 0.5), "ticks": ticks}
         up = {"label": "exponent per unit of time", "scale": "linear", "range": None, "ticks": None}
         figure = {
             "panels": [{"marks": marks, "x": across, "y": up, "caption": None}], "columns": 1, "width": 640, "height": 360,
-            "title": None, "legend": {"entries": [{"key": {"point": look}, "label": name}]},
+            "title": f"{heading}: {named(self.motion.label)}", "legend": {"entries": [{"key": {"point": look}, "label": name}]},
         }
-        head = title if title is not None else f"{heading(self.system)}: {named(self.motion.label)}"
-        drawn: Axes = self._painted(figure, ax, legend, head, line)
+        drawn: Axes = self._painted(figure, ax, legend, title, line)
         return drawn
 
     def plot_sections(

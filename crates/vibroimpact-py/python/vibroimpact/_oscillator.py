@@ -2,16 +2,19 @@
 
 import json
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from vibroimpact import _core
 from vibroimpact._core import QuestionError
+from vibroimpact._documented import completed, of_field, schema
 
 if TYPE_CHECKING:
-    from vibroimpact import _questions, _settle, _simulate_many
+    from vibroimpact import _many, _questions
 
 T = TypeVar("T")
+F = TypeVar("F", bound=Callable[..., Any])
 
 #: What a numerical keyword of `Oscillator.from_units` is in SI units.
 _BODY = {
@@ -30,6 +33,19 @@ _AMBIGUOUS = {
 _NO_SECOND_GAP = "the second stop has a restitution but no gap\nhint: second_gap, its distance from the rest position"
 
 
+def _documented(function: F) -> F:
+    """A function of numbers of a body, whose documentation describes them in the words of plans."""
+    known = schema()["$defs"]["Body"]["properties"]
+
+    def told(name: str) -> tuple[str, str]:
+        kind, words = of_field(known[_BODY.get(name, name)])
+        return kind, words.replace(" and `omega_rad_per_s`", " and `omega`").replace("one of this", "one of it")
+
+    names = ("mass", *(name for name in _BODY if name != "mass"), "stop_in_space")
+    function.__doc__ = completed((function.__doc__ or "").replace("\n    ", "\n"), "Parameters", names, told)
+    return function
+
+
 class Questions:
     """What oscillators and machines have in common: the functions of the package, whose first argument is the system."""
 
@@ -37,9 +53,9 @@ class Questions:
 
     if TYPE_CHECKING:
         simulate = _questions.simulate
-        simulate_many = _simulate_many.simulate_many
+        simulate_many = _many.simulate_many
         settle = _questions.settle
-        settle_many = _settle.settle_many
+        settle_many = _many.settle_many
         attractors = _questions.attractors
         lyapunov = _questions.lyapunov
         orbits = _questions.orbits
@@ -183,6 +199,7 @@ class Oscillator(Questions):
         return cls._of(file, Units(**dict(zip(("length_m", "time_s", "mass_kg"), file.scales() or ()))))
 
     @classmethod
+    @_documented
     def from_units(
         cls, *, mass: float, stiffness: float, gap: float, restitution: float, force: float = 0.0, frequency: float | None = None,
         omega: float | None = None, damping: float | None = None, damping_ratio: float | None = None,
@@ -193,41 +210,7 @@ class Oscillator(Questions):
     ) -> "Oscillator":
         """Create an oscillator from physical units.
 
-        Parameters
-        ----------
-        mass : float
-            Mass in kg.
-        stiffness : float
-            Stiffness in N/m.
-        gap : float
-            Distance of the stop from the rest position in m.
-        restitution : float
-            Coefficient of restitution: speed after an impact over speed before it, 0 to 1.
-        force : float
-            Amplitude of the force in N; 0 only if something else drives the machine.
-        frequency : float
-            Frequency of the force in Hz. Give exactly one of `frequency` and `omega`.
-        omega : float
-            Angular frequency of the force in rad/s.
-        damping, damping_ratio, log_decrement : float
-            Viscous damping in N s/m, or as damping ratio, or as logarithmic decrement; one of them, or none.
-        second_gap, second_restitution : float
-            Distance in m and restitution of a second stop on the other side.
-        base_displacement, base_velocity, base_acceleration : float
-            Amplitude of the motion of the base in m, m/s or m/s^2; one of them, or none. The stop is on the base.
-        base_phase : float
-            Phase of the base relative to the force, in radians.
-        stop_in_space : bool
-            The stop is fixed in space and does not move with the base.
-        stop_displacement, stop_phase : float
-            Amplitude in m and phase of the motion of the stop, if the base is at rest.
-        unbalance : float
-            Rotating unbalance in kg m, whose force grows as the square of the frequency.
-        constant_force : float
-            Constant force in N towards the stop.
-        gravity : float
-            Acceleration of gravity in m/s^2 towards the stop; negative away from it.
-
+        Give exactly one of `frequency` and `omega`, and at most one form of damping and one of the motion of the base.
         Positions are those relative to the motion of the stop, from the equilibrium under constant force and gravity.
 
         Examples

@@ -11,13 +11,11 @@ import numpy as np
 
 from vibroimpact import _core
 from vibroimpact._ask import Start, System
-from vibroimpact._axis import names
-from vibroimpact._budget import Budget, seconds
+from vibroimpact._arguments import BLOCKS, BUDGET, SHARD, TILE, Budget, maybe, names, seconds, threads_of, whole
 from vibroimpact._machine import Machine
+from vibroimpact._many import Points, points
 from vibroimpact._oscillator import Oscillator
-from vibroimpact._over import MachineOver, Points, machine_points, points
 from vibroimpact._sample import Sample
-from vibroimpact._whole import BLOCKS, BUDGET, SHARD, TILE, maybe, threads_of, whole
 
 if TYPE_CHECKING:
     from vibroimpact import _questions
@@ -182,7 +180,7 @@ class Plan:
         if len(drawn) > 1:
             raise _core.QuestionError(f"{' and '.join(drawn)} are two samples\nhint: one sample of all that varies")
         asked: dict[str, Any] = {name: of.low() if isinstance(of, Sample) else of for name, of in all_given.items()}
-        all_ = machine_points(*asked.values()) if isinstance(system, Machine) else points(*asked.values())
+        all_ = points(*asked.values())
         if drawn:
             if all_.sizes:
                 raise _core.QuestionError("a sample and arrays are two sets of points\nhint: the arrays of the sample, dict(sample)")
@@ -192,16 +190,16 @@ class Plan:
             of_points = {"listed": [{"vary": name, "values": of.tolist()} for name, of in all_.columns]}
             varied = {name for name, _ in all_.columns}
         task = {"points": of_points, "impacts": maybe("impacts", impacts, BUDGET), "fields": names(fields)}
-        if isinstance(all_, MachineOver):
+        if isinstance(all_.system, Machine):
             if transient:
                 raise _core.QuestionError("transient counts the impacts of an oscillator")
-            return made(all_.machine, "settle_many", task, tile, Start(all_.machine, None, None, *all_.start))
+            return made(all_.system, "settle_many", task, tile, Start(all_.system, None, None, *all_.start))
         start = {name: of for name, of in zip(("x", "v", "phase"), all_.start) if name not in varied}
         task |= {
             "start": {name: of for name, of in start.items() if of is not None},
             "transient": True if transient else None,
         }
-        return made(all_.osc, "basin", task, tile, Start(all_.osc))
+        return made(all_.system, "basin", task, tile, Start(all_.system))
 
 
 def made(system: System, task: str, fields: Mapping[str, Any], tile: int | None, start: Start) -> Plan:

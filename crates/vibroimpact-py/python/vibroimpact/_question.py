@@ -1,7 +1,7 @@
 """What all questions have in common: where a motion starts, whole numbers, progress, threads, and where a grid is computed."""
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import wraps
 from typing import Any
 
@@ -9,38 +9,44 @@ import numpy as np
 
 from vibroimpact._ask import Start, System, answered
 from vibroimpact._core import QuestionError
+from vibroimpact._documented import completed, fields_of, of_field
 from vibroimpact._oscillator import Oscillator
-from vibroimpact._plan import Plan
-from vibroimpact._plan import made as made_plan
-from vibroimpact._progress import Progress
-from vibroimpact._result import View
-from vibroimpact._whole import ranges, whole
+from vibroimpact._plan import Plan, made as made_plan
+from vibroimpact._arguments import Progress, ranges, whole
+from vibroimpact._result import Answer
 
 #: The parts of a start of any system, and those that only the start of a machine has beside a label.
 START, STATE = ("x", "v", "q", "qdot", "phase"), ("q", "qdot", "phase")
 
-_SYSTEM = """system : Oscillator or Machine
-        The system."""
-_OF_MACHINE = """q, qdot, phase : array, array, float
-        Start of a machine: coordinates, velocities and phase. Default: those of its `start`, or 0."""
-_OF_OSCILLATOR = """x, v, phase : float
-        Start of an oscillator: position in units of F/k, not beyond a stop (default: at rest, or on the stop), velocity, phase of the
-        force in radians."""
-_THREADS = """threads : int
-        Number of threads; 0 for one per core. The result does not depend on it."""
-_PROGRESS = """progress : bool or callable
-        True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False."""
-_STORE = """store : path
-        The store for the results; tiles that it already contains are not computed again.
-    client : distributed.Client
-        A Dask client, whose workers fill the store.
-    tile : int
-        Points of a tile along each axis."""
-#: What the documentation of several questions says alike.
-_WORDS = {
-    "system": _SYSTEM, "state": _OF_MACHINE, "start": f"{_OF_OSCILLATOR}\n    {_OF_MACHINE}", "threads": _THREADS, "progress": _PROGRESS,
-    "computed": f"{_STORE}\n    {_THREADS}\n    {_PROGRESS}",
+#: What questions say alike of their parameters: types and words.
+WORDS = {
+    "system": ("Oscillator or Machine", "The system."),
+    "x, v, phase": (
+        "float",
+        "Start of an oscillator: position in units of F/k, not beyond a stop (default: at rest, or on the stop), velocity, phase of the "
+        "force in radians.",
+    ),
+    "q, qdot, phase": (
+        "array, array, float", "Start of a machine: coordinates, velocities and phase. Default: those of its `start`, or 0.",
+    ),
+    "over": ("str or array", 'Its values: a range ("0.5:1.5:201" has 201 values), or a list or an array of values.'),
+    "store": ("path", "The store for the results; tiles that it already contains are not computed again."),
+    "client": ("distributed.Client", "A Dask client, whose workers fill the store."),
+    "tile": ("int", "Points of a tile along each axis."),
+    "threads": ("int", "Number of threads; 0 for one per core. The result does not depend on it."),
+    "progress": (
+        "bool or callable",
+        "True for a progress bar, or a function called with the amounts done and in total; it stops the work by returning False.",
+    ),
 }
+
+
+def documented(text: str, names: Sequence[str], task: str) -> str:
+    """Documentation with an entry for each parameter that it does not describe: in common words, or in those of plans."""
+    starts = {"x": ("x, v, phase",), "q": ("q, qdot, phase",)}
+    of_start = {"x", "v", "q", "qdot", "phase"}
+    shown = [one for name in names for one in (starts.get(name, ()) if name in of_start else (name,))]
+    return completed(text, "Parameters", shown, lambda name: WORDS.get(name) or of_field(fields_of(task)[name]))
 
 
 def numbered(system: System) -> str:
@@ -54,7 +60,7 @@ def known(what: str, given: str | None, allowed: tuple[str | None, ...]) -> None
         raise QuestionError(f"{what} = `{given}` is none of {', '.join(filter(None, allowed))}")
 
 
-def fields_of(task: str, system: System, given: Mapping[str, Any]) -> dict[str, Any]:
+def given_fields(task: str, system: System, given: Mapping[str, Any]) -> dict[str, Any]:
     """The fields of a task that are not None; whole numbers are checked."""
     allowed = ranges(task, isinstance(system, Oscillator))
     found = {}
@@ -65,12 +71,8 @@ def fields_of(task: str, system: System, given: Mapping[str, Any]) -> dict[str, 
     return found
 
 
-def _documented(made: Any, body: Callable[..., Any], further: Mapping[str, Any], returns: Any) -> Any:
+def _documented(made: Any, body: Callable[..., Any], further: Mapping[str, Any], task: str, returns: Any) -> Any:
     """A function with the documentation and the signature of `body`, with further keywords."""
-    words = (body.__doc__ or "").split("{")
-    text = words[0] + "".join(
-        _WORDS[name] + rest if name in _WORDS else f"{{{part}" for part in words[1:] for name, _, rest in [part.partition("}")]
-    )
     # as `inspect.signature`, which takes ten times as long
     code, kinds = body.__code__, inspect.Parameter
     own = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
@@ -81,14 +83,15 @@ def _documented(made: Any, body: Callable[..., Any], further: Mapping[str, Any],
         for name in dict.fromkeys((*own, *further))
     ]
     made = wraps(body)(made)
-    made.__doc__, made.__signature__ = text, inspect.Signature(parameters, __validate_parameters__=False)
+    made.__doc__ = documented(body.__doc__ or "", [of.name for of in parameters], task)
+    made.__signature__ = inspect.Signature(parameters, __validate_parameters__=False)
     del made.__wrapped__
-    made.returns = returns
+    made.returns, made.task = returns, task
     return made
 
 
 def question(
-    result: type[View], task: str, start: tuple[str, ...], what: str, *, threads: bool = False,
+    result: type[Answer], task: str, start: tuple[str, ...], what: str, *, threads: bool = False,
     total: Callable[[System, Mapping[str, Any]], int] = lambda system, task: 1,
 ) -> Callable[[Callable[..., Mapping[str, Any]]], Any]:
     """A question with one answer: the view of the answer to a task, whose fields the function returns. `total` is the amount of work."""
@@ -98,7 +101,7 @@ def question(
             place = Start(system, **{name: options.pop(name, None) for name in start}) if start else Start(system)
             progress: Progress = options.pop("progress", None)
             count = options.pop("threads", 0) if threads else 1
-            fields = fields_of(task, system, body(system, *given, **options))
+            fields = given_fields(task, system, body(system, *given, **options))
             answer = answered(
                 system, task, place.within(fields) if start is START else fields, place, total=total(system, fields),
                 threads=count, progress=progress, what=what,
@@ -106,9 +109,7 @@ def question(
             return result(None, system, answer, place)
 
         further = {**dict.fromkeys(start), **({"threads": 0} if threads else {}), "progress": None}
-        made = _documented(ask, body, further, result)
-        made.task = task
-        return made
+        return _documented(ask, body, further, task, result)
 
     return of
 
@@ -120,11 +121,9 @@ def plan_of(task: str) -> Callable[[Callable[..., tuple[Mapping[str, Any], Mappi
         def make(system: System, *given: Any, tile: int | None = None, **options: Any) -> Plan:
             fields, start = body(system, *given, **options)
             place = Start(system, **start)
-            return made_plan(system, task, fields_of(task, system, place.within(fields) if start else fields), tile, place)
+            return made_plan(system, task, given_fields(task, system, place.within(fields) if start else fields), tile, place)
 
-        made = _documented(make, body, {"tile": None}, Plan)
-        made.task = task
-        return made
+        return _documented(make, body, {"tile": None}, task, Plan)
 
     return of
 
@@ -139,14 +138,14 @@ def grid(task: str) -> Callable[[Callable[..., tuple[Mapping[str, Any], Mapping[
             system: System, *given: Any, store: Any = None, client: Any = None, threads: int = 0, progress: Progress = None,
             **options: Any,
         ) -> Any:
-            from vibroimpact._grid import computed
+            from vibroimpact._store import computed
 
             plan = make(system, *given, **options)
             return computed(plan, system.units if isinstance(system, Oscillator) else None, store, client, threads, progress)
 
         further = {"store": None, "client": None, "tile": None, "threads": 0, "progress": None}
-        made = _documented(ask, body, further, None)
-        made.plan, made.task = make, task
+        made = _documented(ask, body, further, task, None)
+        made.plan = make
         return made
 
     return of

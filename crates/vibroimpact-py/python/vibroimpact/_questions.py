@@ -8,22 +8,13 @@ from collections.abc import Sequence
 
 import numpy as np
 from vibroimpact import _core
-from vibroimpact._attractors import Attractors
-from vibroimpact._axis import axes, beside, interval, names, plane, sweep
-from vibroimpact._branch import Branch
+from vibroimpact._arguments import SEED, STARTS, axes, beside, interval, names, plane, sweep, whole
+from vibroimpact._continued import Branch, Curve, Margins, Region, Response
 from vibroimpact._core import QuestionError
-from vibroimpact._curve import Curve
-from vibroimpact._edge import Edge
 from vibroimpact._lyapunov import Lyapunov
-from vibroimpact._margins import Margins
-from vibroimpact._orbits import Orbits
+from vibroimpact._motion import Attractors, Edge, Orbits, Settled, Simulation
 from vibroimpact._oscillator import Oscillator
 from vibroimpact._question import START, STATE, grid, known, numbered, plan_of, question
-from vibroimpact._region import Region
-from vibroimpact._response import Response
-from vibroimpact._settle import Settled
-from vibroimpact._simulate import Simulation
-from vibroimpact._whole import SEED, STARTS, whole
 
 
 def _events(system, task):
@@ -33,18 +24,6 @@ def _events(system, task):
 @question(Simulation, "simulate", START, "events", total=_events)
 def simulate(system, *, impacts=None, periods=None, time=None):
     """Follow a motion event by event: impacts, grazing contacts, sticking and release, contact and slip.
-
-    Parameters
-    ----------
-    {system}
-    {start}
-    impacts : int
-        Stop after this number of impacts, of a machine of events, 1 to 1e7. Default: 100, or 1e6 with `periods` or `time`.
-    periods : float
-        Stop after this number of forcing periods, up to 1e9.
-    time : float
-        Stop at this time, up to 1e10; of an oscillator in units of 1/omega_n.
-    {progress}
 
     Examples
     --------
@@ -70,14 +49,6 @@ def settle(system, *, impacts=None):
     """Follow the motion from a start until it has settled, and confirm the result: a cycle, chaos, no further impact, or rest on
     a stop.
 
-    Parameters
-    ----------
-    {system}
-    {start}
-    impacts : int
-        Budget of impacts, of a machine of events, 1 to 1 000 000. A motion that has not settled by then is undecided. Default: 20 000.
-    {progress}
-
     Examples
     --------
     >>> import vibroimpact as vi
@@ -97,18 +68,6 @@ def attractors(system, starts=200, *, seed=1, impacts=None):
 
     The starts are spread evenly over a box of positions, velocities and phases that contains the motion. They are the
     same on every computer. Motions with the same label are distinguished if their events differ.
-
-    Parameters
-    ----------
-    {system}
-    starts : int
-        Number of starts, 1 to 1e9.
-    seed : int
-        Seed of the sequence of starts.
-    impacts : int
-        Budget of impacts for each start, of a machine of events. Motions that have not settled by then are undecided. Default: 20 000.
-    {threads}
-    {progress}
 
     Examples
     --------
@@ -131,10 +90,8 @@ def orbits(system, label):
 
     Parameters
     ----------
-    {system}
     label : str
         "m/n", "inf/n", "m/T" without forcing, or "0" for the motion of an oscillator without impacts.
-    {progress}
 
     Examples
     --------
@@ -166,19 +123,9 @@ def branch(system, vary, to, *, label=None, also=None, orbit=None, follow=0, poi
         with physical units also "mass_kg" and others; of a machine the path of a number, as "frequency" or "stop.wall.gap".
     to : float or (float, float)
         The other end of its range; or both ends, for a branch that is followed both ways from `system`.
-    label : str
-        "m/n" of the orbit there, "m/T" without forcing. Default, of a machine only: that of the motion from the start.
     also : dict
         A second number that varies in proportion to the first, and its value where the first is `to`: {"inverse_beta": 1.05}. Its
         value at the beginning is that of `system`. So a branch can follow any line in two numbers.
-    orbit : int
-        Number of the orbit, counted from 1 in the order of `orbits`. Default: the stable orbit, or else the fastest admissible one.
-    follow : int
-        Maximum number of branches, 0 to 100, to follow from flips and branch points.
-    points : int
-        Maximum number of points of each branch, 2 to 100000.
-    {state}
-    {progress}
 
     Examples
     --------
@@ -219,16 +166,6 @@ def curve(system, kind, over, *, label=None, orbit=None, event=None, points=None
         {"gap": (0, 5), "inverse_beta": (0.45, 0.9)}. With physical units also {"gap_m": (0.001, 0.01), "force_n": (20, 60)}; the
         velocities of the impacts are in the units at each point, which depend on the mass, the stiffness and what drives it. Of a
         machine paths.
-    label : str
-        "m/n" of the orbit there, "m/T" without forcing. Default, of a machine only: that of the motion from the start.
-    orbit : int
-        Number of the orbit, as for `branch`.
-    event : int
-        Number of the event, counted from 1 in order of rising values. Default: the event nearest to `system`.
-    points : int
-        Of a machine the largest number of points in each direction, 2 to 100 000.
-    {state}
-    {progress}
 
     Examples
     --------
@@ -257,16 +194,10 @@ def region(system, label, over, *, grid=24):
     system : Oscillator or Machine
         The system; its values of the two parameters are ignored. A machine must have one coordinate on a spring, forcing of
         order 1, no friction, and one rigid stop or two on opposite sides.
-    label : str
-        The label "m/n" of the motion.
     over : mapping
         Two parameters and their ranges, the abscissa first: {"inverse_beta": (0.4, 2), "gap": (-1, 5)}. With
         physical units also two of them: {"mass_kg": (0.7, 0.95), "force_n": (10, 60)}. Of a machine paths:
         {"frequency": (0.5, 1.5), "stop.wall.gap": (0, 2)}.
-    grid : int
-        Number of points of the grid in each direction, 2 to 400. Parts of the region between its points may be missed.
-    {threads}
-    {progress}
 
     Examples
     --------
@@ -306,9 +237,6 @@ def response(system, vary, over, *, quantity=None, impacts=None):
     quantity : str
         The quantity that is drawn; all are computed. `Motion.quantities` has the names. Default: "displacement_amplitude", of a
         machine that of its first coordinate.
-    impacts : int
-        Budget of impacts for the motion at each value, of a machine of events. Motions that have not settled by then are undecided.
-    {progress}
 
     Examples
     --------
@@ -333,16 +261,9 @@ def edge(system, other, *, laps=None, impacts=None):
 
     Parameters
     ----------
-    {system}
     other : dict
         In what the second start differs from the first: values of "x" and "v" of an oscillator, of "q.NAME" and "qdot.NAME" of a
         machine.
-    {start}
-    laps : int
-        Forcing periods for which the motion on the border is followed at most, 1 to 10000. Default: 200.
-    impacts : int
-        Budget of impacts for each start, of a machine of events. Default: 20 000.
-    {progress}
 
     Examples
     --------
@@ -367,10 +288,6 @@ def margins(system, *, label=None, vary=None, scale=None, within=2.0, lines=None
 
     Parameters
     ----------
-    {system}
-    {start}
-    label : str
-        "m/n" of the motion instead of a start: the stable orbit, or else the fastest one.
     vary : sequence of str
         The numbers that vary; by default all of an oscillator, whose frequency is "beta" or "inverse_beta", and of a machine the
         parameters of the file, and the numbers that are written as such and are not 0, without directions.
@@ -379,10 +296,6 @@ def margins(system, *, label=None, vary=None, scale=None, within=2.0, lines=None
     within : float
         Events are looked for from each value divided by this number to the value times this number, above 1 and up to 100;
         a restitution from 0 to 1.
-    lines : int
-        Number of lines to scattered points of the surface of the box, besides those to the centres of its faces and to its corners.
-        Default: 200.
-    {progress}
 
     Examples
     --------
@@ -420,19 +333,6 @@ def _impacts(system, task):
 def lyapunov(system, *, impacts=None, transient=None, points=None):
     """Measure the Lyapunov exponents of a motion, with error bars, and the dimension of its attractor.
 
-    Parameters
-    ----------
-    {system}
-    {start}
-    impacts : int
-        Number of impacts of the measurement, 1000 to 1e7, default 100 000; of a machine of events, from 25, default 20 000. The error
-        bar decreases with its square root.
-    transient : int
-        Number of impacts before the measurement, and of forcing periods before the stroboscopic section. Default: 1000.
-    points : int
-        Number of points of each section of the attractor, 1 to 100000; by default no sections.
-    {progress}
-
     Examples
     --------
     >>> import vibroimpact as vi
@@ -464,20 +364,8 @@ def basin(system, over=None, *, x=None, v=None, phase=None, q=None, qdot=None, r
         array. The first one that varies is the abscissa, the second one the ordinate.
     q, qdot : array
         Coordinates and velocities of the starts of a machine, where they do not vary. Default: those of `machine.start`, or 0.
-    refine : int
-        Step K of a coarse grid: every K-th point is computed first, and points between only where their neighbours differ.
-    impacts : int
-        Budget of impacts for each start. Motions that have not settled by then are undecided.
     fields : sequence of str
         Quantities of each motion as further variables: ["impact_speed_max", "power"]. `Motion.quantities` has the names.
-    store : path
-        The store for the results; tiles that it already contains are not computed again.
-    client : distributed.Client
-        A Dask client, whose workers fill the store.
-    tile : int
-        Points of a tile along each axis.
-    {threads}
-    {progress}
 
     Returns
     -------
@@ -510,18 +398,6 @@ def region_map(system, over, *, starts=8, seed=1, refine=None, impacts=None, fie
     over : mapping
         One to four parameters, for a machine the paths of numbers, with their values; the first one is the abscissa:
         {"inverse_beta": "0.4:2:33", "gap": [0, 1, 2.5]}.
-    starts : int
-        Number of starts at each point: the first at rest, the second on the motion without impacts, the others scattered.
-    seed : int
-        Seed of the sequence of starts.
-    refine : int
-        Step K of a coarse grid: every K-th point is computed first, and points between only where their neighbours differ.
-    impacts : int
-        Budget of impacts for each start. Motions that have not settled by then are undecided.
-    fields : sequence of str
-        Quantities of each motion as further variables, as for `basin`.
-    store, client, tile, threads, progress
-        As for `basin`.
 
     Returns
     -------
@@ -571,12 +447,6 @@ def orbit_diagram(
         "up", "down", "both", or "scatter" for several scattered starts at each value.
     starts, seed : int
         For "scatter": the number of starts (default 8), and the seed of their sequence (default 1).
-    transient : int
-        Number of impacts ("velocity") or forcing periods ("strobe") before the points shown.
-    keep : int
-        Maximum number of impacts or states shown at each value.
-    store, client, threads, progress
-        As for `basin`.
 
     Returns
     -------

@@ -7,21 +7,20 @@ from typing import SupportsIndex
 import xarray as xr
 from distributed import Client
 from numpy.typing import ArrayLike
+from vibroimpact._arguments import Axis, Interval, Progress
 from vibroimpact._ask import System
-from vibroimpact._attractors import Attractors
-from vibroimpact._axis import Axis, Interval
-from vibroimpact._branch import Branch
-from vibroimpact._curve import Curve
-from vibroimpact._edge import Edge
+from vibroimpact._continued import Branch
+from vibroimpact._continued import Curve
+from vibroimpact._continued import Margins
+from vibroimpact._continued import Region
+from vibroimpact._continued import Response
 from vibroimpact._lyapunov import Lyapunov
-from vibroimpact._margins import Margins
-from vibroimpact._orbits import Orbits
+from vibroimpact._motion import Attractors
+from vibroimpact._motion import Edge
+from vibroimpact._motion import Orbits
+from vibroimpact._motion import Settled
+from vibroimpact._motion import Simulation
 from vibroimpact._plan import Plan
-from vibroimpact._progress import Progress
-from vibroimpact._region import Region
-from vibroimpact._response import Response
-from vibroimpact._settle import Settled
-from vibroimpact._simulate import Simulation
 
 def simulate(
     system: System, *, impacts: SupportsIndex | None = None, periods: float | None = None, time: float | None = None,

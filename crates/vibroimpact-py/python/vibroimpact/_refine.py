@@ -9,18 +9,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact._axis import Interval, interval
+from vibroimpact._arguments import CELLS, ROUNDS, Interval, Progress, interval, whole
 from vibroimpact._core import QuestionError
 from vibroimpact._oscillator import Oscillator
 from vibroimpact._plan import Plan
-from vibroimpact._progress import Progress
-from vibroimpact._whole import CELLS, ROUNDS, whole
 
 if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
 
-    from vibroimpact._over import Points
+    from vibroimpact._many import Points
 
 #: Most numbers that vary: a cell has a corner for each choice of ends.
 _MOST_SIDES = 4
@@ -170,7 +168,7 @@ def _round(
     how: "tuple[Client | None, int, Progress]",
 ) -> "xr.Dataset":
     """The Dataset of the points of one round."""
-    from vibroimpact import _grid, _many
+    from vibroimpact import _many, _store
 
     (system, values, starts), (fields, impacts, tile), (client, threads, progress) = points, options, how
     of_starts = {name: of for name, of in values.items() if name in ("x", "v", "phase")}
@@ -184,5 +182,5 @@ def _round(
     plan = Plan.samples(given, over=of_systems or None, starts=starts or None, fields=fields, impacts=impacts, tile=tile)
     if not place.startswith("s3://"):
         os.makedirs(os.path.dirname(place), exist_ok=True)
-    ds = _grid.computed(plan, system.units if isinstance(system, Oscillator) else None, place, client, threads, progress)
+    ds = _store.computed(plan, system.units if isinstance(system, Oscillator) else None, place, client, threads, progress)
     return _many.with_whole_numbers(ds)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from vibroimpact import _core
 from vibroimpact._core import QuestionError
-from vibroimpact._styled import styled
+from vibroimpact._documented import Attributes
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -51,8 +51,6 @@ class Result:
 
     def __eq__(self, other: object) -> bool:
         return equal(self, other) if type(self) is type(other) else NotImplemented
-
-    __hash__ = None  # type: ignore[assignment]
 
     def _table(self) -> dict[str, Any]:
         """The columns of the table of the result."""
@@ -101,29 +99,54 @@ class Result:
         self.plot(ax)  # type: ignore[attr-defined]
 
 
-class _Lazy(Generic[R]):
-    """An attribute of a view that is made of its object when it is first used."""
+class Made(Generic[R]):
+    """An attribute of a view that a function makes of it when it is first used. `kind` is its type in documentation."""
+
+    name: str
+
+    def __init__(self, make: Callable[[Any], R], kind: str = "") -> None:
+        self._make, self.kind = make, kind
 
     def __set_name__(self, owner: type, name: str) -> None:
-        self._name = name
+        self.name = name
 
     def __get__(self, view: Any, owner: object = None) -> R:
-        found = self._value(view)
-        view.__dict__[self._name] = found
+        found = self._make(view)
+        view.__dict__[self.name] = found
         return found
 
-    def _value(self, view: Any) -> R:
-        raise NotImplementedError
+
+def column(kind: type[N]) -> Made[NDArray[N]]:
+    """One that is a column: the field of its name of each row of the view; nan where a row lacks it."""
+    made: Made[NDArray[N]] = Made(
+        lambda view: np.array([row.get(made.name, np.nan) for row in view._rows], dtype=kind), f"NDArray[np.{kind.__name__}]"
+    )
+    return made
 
 
-class Made(_Lazy[R]):
-    """One that a function makes of the view."""
+def field(convert: Callable[[Any], R], path: str = "") -> Made[R]:
+    """One that is a field of the object, or of an object in it, converted; it is named by its path."""
 
-    def __init__(self, make: Callable[[Any], R]) -> None:
-        self._make = make
+    def value(view: Any) -> R:
+        of: Any = view._of
+        for name in (path or made.name).split("."):
+            of = None if of is None else of.get(name)
+        return convert(of)
 
-    def _value(self, view: Any) -> R:
-        return self._make(view)
+    made: Made[R] = Made(value, str(getattr(convert, "__annotations__", {}).get("return", "")))
+    return made
+
+
+def part(kind: type[V]) -> Made[V]:
+    """One that is a view of an object in the object."""
+    made: Made[V] = Made(lambda view: kind(view._of[made.name], view.system), kind.__name__)
+    return made
+
+
+def parts(kind: type[V]) -> Made[list[V]]:
+    """One that is a list of views of the objects in a list."""
+    made: Made[list[V]] = Made(lambda view: [kind(of, view.system) for of in view._of[made.name]], f"list of {kind.__name__}")
+    return made
 
 
 class View(Result):
@@ -131,22 +154,22 @@ class View(Result):
     declared and absent in it are None."""
 
     _declared: frozenset[str] = frozenset()
+    #: Where the words of its attributes are: a command, and definitions in the schema of its answer.
+    _schema: tuple[str, ...] = ()
     #: The system: an `Oscillator` or a `Machine`.
     system: Any
 
-    def __init_subclass__(cls) -> None:
+    def __init_subclass__(cls, schema: str = "") -> None:
         super().__init_subclass__()
         cls._declared = cls._declared | cls.__annotations__.keys()
+        cls._schema = tuple(schema.split()) or cls._schema
+        cls.__doc__ = Attributes(cls.__doc__ or "")  # type: ignore[assignment]
 
-    def __init__(
-        self, of: dict[str, Any] | None, system: Any, answer: _core.Answer | None = None, start: Any = None
-    ) -> None:
-        self.system, self._answer, self._start = system, answer, start
-        if of is not None:
-            self.__dict__["_of"] = of
+    def __init__(self, of: dict[str, Any], system: Any) -> None:
+        self.__dict__["_of"], self.system = of, system
 
     #: The object, and the rows of its columns.
-    _of: Made[dict[str, Any]] = Made(lambda view: view._read(view._answer))
+    _of: Made[dict[str, Any]]
     _rows: Made[list[dict[str, Any]]] = Made(lambda view: view._of.get("points", []))
 
     def __getattr__(self, name: str) -> Any:
@@ -159,7 +182,27 @@ class View(Result):
             return NotImplemented
         return equal(self._of, other._of) and bool(self.system == other.system)
 
-    __hash__ = None
+    def to_dict(self) -> dict[str, Any]:
+        """The object in the JSON of the command."""
+        return copy.deepcopy(self._of)
+
+    def _painted(self, figure: dict[str, Any], ax: Any, legend: bool, title: str | None, line: dict[str, Any], /) -> Any:
+        from vibroimpact._paint import paint
+
+        return paint(figure, ax, legend, title, line)
+
+
+class Answer(View):
+    """The object that the command prints for a question; it is read when it is used."""
+
+    _of: Made[dict[str, Any]] = Made(lambda view: view._read(view._answer))
+
+    def __init__(
+        self, of: dict[str, Any] | None, system: Any, answer: _core.Answer | None = None, start: Any = None
+    ) -> None:
+        self.system, self._answer, self._start = system, answer, start
+        if of is not None:
+            self.__dict__["_of"] = of
 
     def __getstate__(self) -> dict[str, Any]:
         # what the compiled module keeps is computed again where it is needed
@@ -182,10 +225,6 @@ class View(Result):
             self._answer = _core.Answer(self.plan)
         return self._answer
 
-    def to_dict(self) -> dict[str, Any]:
-        """The object in the JSON of the command."""
-        return copy.deepcopy(self._of)
-
     def _figure(
         self, *, si: bool = False, diagram: bool = False, inadmissible: bool = False, branch: int | None = None,
         quantity: str | None = None,
@@ -206,75 +245,8 @@ class View(Result):
         """
         return self._painted(self._figure(si=si), ax, legend, title, line)
 
-    def _painted(
-        self, figure: dict[str, Any], ax: Any, legend: bool, title: str | None, line: dict[str, Any], /
-    ) -> Any:
-        from vibroimpact._paint import paint
 
-        return styled(lambda ax: paint(figure, ax), ax, legend, title, line)
-
-
-class Column(_Lazy[NDArray[N]]):
-    """One that is a column: the field of its name, or at a path, of each row of the view; nan where a row lacks it."""
-
-    def __init__(self, kind: type[N], field: str | None = None) -> None:
-        self._kind, self._field = kind, field
-
-    def _value(self, view: Any) -> NDArray[N]:
-        name = self._field or self._name
-        return np.array([row.get(name, np.nan) for row in view._rows], dtype=self._kind)
-
-
-class Field(_Lazy[R]):
-    """One that is a field of the object, or of an object in it, converted; it is named by its path."""
-
-    def __init__(self, convert: Callable[[Any], R], path: str | None = None) -> None:
-        self._convert, self._path = convert, path
-
-    def _value(self, view: Any) -> R:
-        of: Any = view._of
-        for name in (self._path or self._name).split("."):
-            of = None if of is None else of.get(name)
-        return self._convert(of)
-
-
-class Part(_Lazy[V]):
-    """One that is a view of an object in the object."""
-
-    def __init__(self, kind: "type[V]", path: str | None = None) -> None:
-        self._kind, self._path = kind, path
-
-    def _value(self, view: Any) -> V:
-        return self._kind(view._of[self._path or self._name], view.system)
-
-
-class Parts(_Lazy[list[V]]):
-    """One that is a list of views of the objects in a list."""
-
-    def __init__(self, kind: "type[V]", path: str | None = None) -> None:
-        self._kind, self._path = kind, path
-
-    def _value(self, view: Any) -> list[V]:
-        return [self._kind(of, view.system) for of in view._of[self._path or self._name]]
-
-
-class Rows(Result):
-    """The base of results that are columns of one length: a dataclass, each of whose arrays is one or more columns."""
-
-    __slots__ = ()
-
-    def __len__(self) -> int:
-        return len(getattr(self, fields(self)[0].name))  # type: ignore[arg-type]
-
-    def __repr__(self) -> str:
-        return f"<{type(self).__name__}: {len(self)}>"
-
-    def _table(self) -> dict[str, Any]:
-        """One row for each row of the columns."""
-        return {of.name: getattr(self, of.name) for of in fields(self) if not of.name.startswith("_")}  # type: ignore[arg-type]
-
-
-class Sequence(View, Generic[V]):
+class Listed(Answer, Generic[V]):
     """The base of answers that are sequences of views, which are the attribute `_items`."""
 
     _items: Made[list[V]]
@@ -287,29 +259,3 @@ class Sequence(View, Generic[V]):
 
     def __getitem__(self, k: int) -> V:
         return self._items[k]
-
-
-def pair(of: Iterable[R]) -> tuple[R, R]:
-    """Two values."""
-    one, two = of
-    return one, two
-
-
-def flat(of: dict[str, Any]) -> dict[str, Any]:
-    """The fields of an object as one row: objects in it by path, lists as JSON."""
-    row: dict[str, Any] = {}
-    for name, value in of.items():
-        if isinstance(value, dict):
-            row |= {f"{name}.{key}": entry for key, entry in flat(value).items()}
-        elif isinstance(value, (list, tuple)):
-            row[name] = json.dumps(value)
-        else:
-            row[name] = value
-    return row
-
-
-def rows(of: "list[dict[str, Any]]") -> dict[str, Any]:
-    """Objects as columns: one row each, None where an object lacks a field."""
-    all_ = [flat(one) for one in of]
-    names = dict.fromkeys(name for one in all_ for name in one)
-    return {name: [one.get(name) for one in all_] for name in names}

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact import _core
-from vibroimpact._axis import Interval, interval
+from vibroimpact._arguments import SAMPLES, SEED, Interval, interval, whole
 from vibroimpact._core import QuestionError
-from vibroimpact._whole import SAMPLES, SEED, whole
 
 
 class Sample(Mapping[str, NDArray[np.float64]]):
@@ -43,8 +42,6 @@ class Sample(Mapping[str, NDArray[np.float64]]):
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Sample) and self._drawn == other._drawn
-
-    __hash__ = None  # type: ignore[assignment]
 
     def to_dict(self) -> dict[str, Any]:
         """How they are drawn, as in a plan."""

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 #: The attributes of a Dataset that contain its physical units.
-_LENGTH, _TIME, _MASS = _KEYS = ("unit_length_m", "unit_time_s", "unit_mass_kg")
+LENGTH, _TIME, _MASS = _KEYS = ("unit_length_m", "unit_time_s", "unit_mass_kg")
 
 #: The factor for each scale of nondimensional numbers, and the SI unit as UDUNITS and pint read it.
 _Factors: TypeAlias = dict[str, tuple[Any, str]]
@@ -24,7 +24,7 @@ _PLAIN = ("1", "rad")
 
 def attributes(units: Units | None) -> dict[str, float]:
     """The physical units as attributes of a Dataset; empty without units."""
-    return {} if units is None else {_LENGTH: units.length_m, _TIME: units.time_s, _MASS: units.mass_kg}
+    return {} if units is None else {LENGTH: units.length_m, _TIME: units.time_s, _MASS: units.mass_kg}
 
 
 def converted(ds: "xr.Dataset", units: Units | None) -> "xr.Dataset":

@@ -1,10 +1,13 @@
-"""The parameters of a Dataset: scalar coordinates for those that do not vary, and the title of its figure.
+"""What Datasets say of themselves: variables by their long names, units, and the parameters in titles of figures.
 
 After a Dataset was computed, parts of it may be selected, or it may be joined with others or transposed. Its coordinates
 then follow the data, but its attribute "plan" does not change. So a figure states the coordinates and not the plan.
 """
 
 import json
+import re
+from collections.abc import Mapping
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,17 +15,103 @@ from numpy.typing import NDArray
 
 from vibroimpact import _core
 from vibroimpact._core import QuestionError
-from vibroimpact._figure import SYMBOLS, equal, span
-from vibroimpact._unit_names import described, unit_of
 
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Symbols of the coordinates of a start.
-STARTS = {"x": r"\xi_0", "v": r"u_0", "phase": r"\varphi_0"}
+#: Powers as figures show them.
+_POWERS = {"2": "\u00b2", "3": "\u00b3"}
+
+
+def described(long_name: str, units: str, scale: str) -> dict[str, Any]:
+    """The attributes of a variable: the unit, if it is known, and the scale of nondimensional numbers."""
+    given = {"long_name": long_name, "units": written(units), "scale": scale}
+    return {name: text for name, text in given.items() if text}
+
+
+def attributes_of(of: Mapping[str, Any]) -> dict[str, Any]:
+    """The attributes of a variable that the compiled module describes."""
+    attributes = described(of["long_name"], of["units"], of["scale"])
+    if of["comment"]:
+        attributes["comment"] = of["comment"]
+    if of["flags"]:
+        attributes["flag_values"] = [value for value, _ in of["flags"]]
+        attributes["flag_meanings"] = " ".join(meaning for _, meaning in of["flags"])
+    return attributes
+
+
+def unit_of(attributes: Mapping[Any, Any]) -> str:
+    """The unit or the scale of a variable, as labels of figures write it; empty for pure numbers and angles."""
+    if scale := str(attributes.get("scale", "")):
+        return f"*{scale.replace('omega_n', 'ω_n')}*"
+    units = str(attributes.get("units", "1"))
+    return "" if units in ("", "1", "rad") else fraction(units)
+
+
+def written(units: str) -> str:
+    """A unit of the compiled module or of a store, `m s-2`, as UDUNITS and pint read it: `m/s^2`."""
+    factors = [factor.partition("-") for factor in units.split()]
+    above = [symbol for symbol, sign, _ in factors if not sign]
+    below = [f"/{symbol}" + (f"^{power}" if power != "1" else "") for symbol, sign, power in factors if sign]
+    return " ".join(above or (["1"] if below else [])) + "".join(below)
+
+
+def fraction(units: str) -> str:
+    """A unit as figures show it: `m s-2` and `m/s^2` are m/s\u00b2."""
+    text = written(units)
+    for power, sign in _POWERS.items():
+        text = text.replace(f"^{power}", sign)
+    return text
+
+
+#: The long names of the variables that figures and labels need.
+_FIELDS = {
+    "motion m/n, the most frequent first": "label",
+    "motion m/n that the start leads to": "label",
+    "share of the starts that lead to the motion": "share",
+    "number of the cycle that the start leads to, in the tables cycle_*": "cycle",
+    "whether the point was computed itself": "computed",
+}
+_COORDINATES = (
+    "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap", "second_restitution", "x", "v", "phase",
+)
+
+
+@lru_cache(maxsize=1)
+def _known() -> dict[str, str]:
+    """The names by the long names."""
+    coordinates = (*_COORDINATES, *_core.body_parameters())
+    return {**_FIELDS, **{_core.coordinate_words(name)[0]: name for name in coordinates}}
+
+
+def _given(ds: "xr.Dataset") -> dict[str, str]:
+    """The names that renamed variables were given when the Dataset was computed, by their names now."""
+    known = _known()
+    found = {str(now): known.get(str(of.attrs.get("long_name", "")), str(now)) for now, of in ds.variables.items()}
+    return {now: name for now, name in found.items() if now != name and name not in ds.variables}
+
+
+def here(ds: "xr.Dataset", name: str) -> str:
+    """The name that a variable has now, if the Dataset has it."""
+    return next((now for now, given in _given(ds).items() if given == name), name)
+
+
+def restored(ds: "xr.Dataset") -> "xr.Dataset":
+    """The Dataset with the names that its variables were given."""
+    free = {now: name for now, name in _given(ds).items() if name not in ds.dims}
+    whole: xr.Dataset = ds.rename(free) if free else ds
+    return whole
+
+
+#: Symbols of parameters and of the coordinates of a start, in the markup of labels.
+SYMBOLS = {
+    "beta": "*β*", "inverse_beta": "1/*β*", "gap": "*δ*", "restitution": "*ε*", "damping": "*ζ*", "second_gap": "*δ*_2",
+    "second_restitution": "*ε*_2",
+}
+STARTS = {"x": "*ξ*_0", "v": "*u*_0", "phase": "*φ*_0"}
 _FREQUENCIES = ("beta", "inverse_beta")
 #: Symbols of coordinates in metres and seconds.
-IN_METRES = {"gap": "d", "second_gap": "d_2", "x": "x_0", "v": "v_0"}
+IN_METRES = {"gap": "*d*", "second_gap": "*d*_2", "x": "*x*_0", "v": "*v*_0"}
 #: Parameters that a title always states if they are known. The others are stated only where `_worth_saying` holds.
 _ALWAYS = (*_FREQUENCIES, "gap", "restitution")
 
@@ -40,10 +129,25 @@ def with_fixed(ds: "xr.Dataset") -> "xr.Dataset":
     return whole
 
 
+def plain(text: str) -> str:
+    """A text in the markup of labels, in which some characters have a meaning."""
+    return re.sub(r"([*_^\\])", r"\\\1", text)
+
+
+def span(sign: str, low: float, high: float) -> str:
+    """Text for a parameter with a range of values."""
+    return f"{sign} from {low:.6g} to {high:.6g}"
+
+
+def _equal(sign: str, value: float) -> str:
+    """Text for a parameter with one value."""
+    mantissa, e, exponent = f"{value:.6g}".partition("e")
+    return f"{sign} = {mantissa}" + (f"·10^{{{int(exponent)}}}" if e else "")
+
+
 def symbol(name: str) -> str:
     """The symbol of a coordinate, or its name if it has no symbol."""
-    known = SYMBOLS | STARTS
-    return f"${known[name]}$" if name in known else name
+    return (SYMBOLS | STARTS).get(name) or plain(name)
 
 
 def named(ds: "xr.Dataset", name: str) -> str:
@@ -56,7 +160,7 @@ def named(ds: "xr.Dataset", name: str) -> str:
 
 def _sign(ds: "xr.Dataset", name: str) -> str:
     """The symbol of a coordinate in the units of the Dataset."""
-    return f"${IN_METRES[name]}$" if _unit(ds, name) and name in IN_METRES else symbol(name)
+    return IN_METRES[name] if _unit(ds, name) and name in IN_METRES else symbol(name)
 
 
 def _unit(ds: "xr.Dataset", name: str) -> str:
@@ -84,7 +188,7 @@ def title(ds: "xr.Dataset", axes: tuple[str, ...]) -> str:
     if "machine" in plan:
         # a long title up to its first colon, then what does not vary in the figure any more
         first = str(plan.get("title", "")).split(": ")[0]
-        return ", ".join([first, *_of_machine(ds, axes, varied(plan))] if first else _of_machine(ds, axes, varied(plan)))
+        return plain(", ".join([first, *_of_machine(ds, axes, varied(plan))] if first else _of_machine(ds, axes, varied(plan))))
     lost = {name for name in varied(plan) if name not in ds.coords and name not in axes}
     given = "beta" if "beta" in plan.get("system", {}) else "inverse_beta"
     drawn = set(axes) | ({*_FREQUENCIES} if {*_FREQUENCIES} & set(axes) else set())
@@ -106,7 +210,7 @@ def title(ds: "xr.Dataset", axes: tuple[str, ...]) -> str:
             known = values[np.isfinite(values)]
             if _worth_saying(ds, name, known, axes, plan):
                 sign, unit = _sign(ds, name), _unit(ds, name)
-                one = equal(sign, known[0]) if len(known) == 1 else span(sign, known[0], known[-1])
+                one = _equal(sign, known[0]) if len(known) == 1 else span(sign, known[0], known[-1])
                 one += f" {unit}" if unit else ""
                 said.append(one if len(known) == len(values) else f"{one} or none")
     return ", ".join(said)

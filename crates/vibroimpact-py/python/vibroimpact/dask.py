@@ -23,12 +23,10 @@ from typing import TYPE_CHECKING, Any
 from uuid import uuid4
 
 from vibroimpact import _core
-from vibroimpact._budget import Budget, seconds
+from vibroimpact._arguments import AHEAD, Budget, COUNT, Progress, outside, seconds, watched, whole
 from vibroimpact._plan import Plan
-from vibroimpact._progress import Progress, watched
 from vibroimpact._rolling import rolling
 from vibroimpact._store import Ran
-from vibroimpact._whole import AHEAD, COUNT, outside, whole
 
 if TYPE_CHECKING:
     from distributed import Client

@@ -33,12 +33,16 @@ struct Cloud {
 }
 
 /// The dots of the motion at one value.
-struct Motion {
-    index: u32,
-    sweep: Sweep,
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// The number of the value.
+    pub index: u32,
+    /// How its start was chosen.
+    pub sweep: Sweep,
     /// Whether the motion repeats, that is, has fewer points than the plan allows.
-    repeats: bool,
-    ys: Vec<f64>,
+    pub repeats: bool,
+    /// The ordinates.
+    pub ys: Vec<f64>,
 }
 
 /// The figure of `vibro diagram`.
@@ -59,7 +63,10 @@ pub fn figure<V: Varied, S: ShownValue>(
 }
 
 /// Draws a dot for every point.
-fn draw(
+///
+/// # Errors
+/// [`ReportError::Plot`] for a raster that cannot be drawn.
+pub fn draw(
     motions: &[Motion],
     (over, direction, symbol): (&Values, SweepDirection, &str),
     (side, ordinate): (&PlaneAxis, FigureAxis),

@@ -1,16 +1,12 @@
 //! The figure of a map: each point of the parameter plane in the colours of its coexisting motions.
 
 use crate::figure::plane::{Plane, Sides};
-use crate::figure::point_motion::points;
-use crate::figure::{label as legend_label, shares};
+use crate::figure::point_motion::{PointMotions, legend};
+use crate::figure::shares;
 use crate::{FieldName, ReportError, Units, Varied};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use vibroimpact::math::sort_by_key;
-use vibroimpact_plot::{
-    ClassStyle, Colour, Figure, GROUPS, Legend, Line, Panel, Raster, Rects, class_style, legend_group, legend_text,
-    unforced,
-};
+use vibroimpact_plot::{ClassStyle, Colour, Figure, Key, Legend, Line, Panel, Raster, Rects, class_style};
 use vibroimpact_study::RegionMap;
 
 /// With more points than this, the parts of a cell would be too small to be visible; coexisting motions are stripes across
@@ -22,11 +18,6 @@ const STRIPE: usize = 12;
 
 /// Distance of the lines that hatch undecided cells, in cells.
 const HATCH: usize = 7;
-
-/// Maximum number of labels with an entry of their own in the legend; if there are more, their groups are named.
-const NAMED: usize = 14;
-/// Motions m/T with so many closings or more have one entry in a legend of groups, because their colours are similar.
-const MANY: u64 = 4;
 
 /// The distinct labels at the points of a map, and which of them each point has with which share, the most frequent first.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -114,52 +105,10 @@ impl LabelledCells {
         Line::new(xs, ys, Colour::BLACK).width(1.0)
     }
 
-    /// The legend: the labels, or their groups if there are many.
-    pub(crate) fn legend(&self, style: impl Fn(&str) -> ClassStyle) -> Legend {
-        let rank = |label: &str| GROUPS.iter().position(|group| *group == legend_group(label)).unwrap_or(GROUPS.len());
-        let mut labels: Vec<&str> = self.labels.iter().map(String::as_str).collect();
-        sort_by_key(&mut labels, |label| (rank(label), numbers(label)));
-        if labels.len() <= NAMED {
-            return entries(&labels, style);
-        }
-        let mut legend = Legend::below();
-        // motions m/T have no group
-        let (closings, grouped): (Vec<Option<u64>>, Vec<&str>) = (
-            labels.iter().map(|label| unforced(label)).collect(),
-            labels.iter().copied().filter(|label| unforced(label).is_none()).collect(),
-        );
-        for group in GROUPS.iter().filter(|group| grouped.iter().any(|label| legend_group(label) == **group)) {
-            legend = legend.patch(style(group), legend_text(group));
-        }
-        for m in (0..MANY).filter(|m| closings.contains(&Some(*m))) {
-            legend = legend.patch(style(&format!("{m}/T")), format!("{m}/T"));
-        }
-        if closings.iter().flatten().any(|m| *m >= MANY) {
-            legend = legend.patch(style(&format!("{MANY}/T")), format!("*m*/T, *m* ≥ {MANY}"));
-        }
-        legend
+    /// The legend of the labels.
+    pub(crate) fn legend(&self) -> Legend {
+        legend(self.labels.iter().map(String::as_str), |label| Key::Patch(class_style(label)))
     }
-}
-
-/// A legend with all labels. Those of one group that have the same style, because a group has five, share an entry.
-fn entries(labels: &[&str], style: impl Fn(&str) -> ClassStyle) -> Legend {
-    let mut entries: Vec<(ClassStyle, String)> = Vec::new();
-    for label in labels {
-        let group = legend_group(label);
-        let named = group.contains('/') || unforced(label).is_some();
-        let word = if named { legend_label(label) } else { legend_text(group).to_owned() };
-        match entries.iter_mut().find(|(other, _)| *other == style(label)) {
-            Some((_, words)) => words.push_str(&format!(", {word}")),
-            None => entries.push((style(label), word)),
-        }
-    }
-    entries.into_iter().fold(Legend::below(), |legend, (style, words)| legend.patch(style, words))
-}
-
-/// The numbers of impacts and periods of a label, by which labels of one group are ordered.
-fn numbers(label: &str) -> (u64, u64) {
-    let (m, n) = label.split_once('/').unwrap_or((label, ""));
-    (n.parse().unwrap_or(0), m.parse().unwrap_or(0))
 }
 
 /// The figure of `vibro map`: a plane, or the shares of the motions over one axis; and whether cells are divided between motions
@@ -174,7 +123,7 @@ pub fn figure<V: Varied, F: FieldName>(
     divided: (bool, bool),
 ) -> Result<Figure, ReportError> {
     match Sides::of(&found.axes, units)? {
-        Sides::Line(side) => Ok(shares::draw(&side, &points(found, None, units), title)),
+        Sides::Line(side) => Ok(shares::draw(&side, &PointMotions::of_map(found, None, units), title)),
         Sides::Plane(plane) => {
             let mut cells = LabelledCells::default();
             for motions in &found.points {
@@ -227,7 +176,7 @@ pub fn draw(plane: &Plane, cells: &LabelledCells, title: String) -> Result<Figur
             panel.with(rects)
         }
     };
-    Ok(Figure::new(panel).size(680.0, 620.0).title(title).legend(cells.legend(class_style)))
+    Ok(Figure::new(panel).size(680.0, 620.0).title(title).legend(cells.legend()))
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 pub mod bars;
 pub mod basin;
 pub mod branch;
+pub mod cells;
 pub mod coloured;
 pub mod curve;
 pub mod diagram;
@@ -16,7 +17,7 @@ pub mod plane;
 pub mod point_motion;
 pub mod region;
 pub mod response;
-pub(crate) mod scattered;
+pub mod scattered;
 pub mod section;
 pub mod settle;
 pub mod shares;

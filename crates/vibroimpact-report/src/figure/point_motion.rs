@@ -1,44 +1,124 @@
-//! The motions at the points of a map, as figures need them: the group, the share, and the value of a quantity.
+//! The motions at points, as figures need them: the label, the share, and the value of a quantity; and the legend of labels.
 
 use crate::figure::coloured::Value;
 use crate::varied::units_over;
-use crate::{FieldName, Units, Varied};
-use vibroimpact_plot::{GROUPS, legend_group};
+use crate::{FieldName, Units, Varied, figure};
+use std::collections::BTreeMap;
+use vibroimpact::math::sort_by_key;
+use vibroimpact_plot::{Entry, GROUPS, Key, Legend, legend_group, legend_text, unforced};
 use vibroimpact_study::{Axis, RegionMap, Share};
 
-/// The index of the group of a label in the legend.
-#[must_use]
-pub fn group(label: &str) -> usize {
-    let group = legend_group(label);
-    GROUPS.iter().position(|g| *g == group).unwrap_or(GROUPS.len() - 1)
-}
+/// Maximum number of labels with an entry of their own in a legend; if there are more, their groups have entries.
+const NAMED: usize = 14;
+/// Maximum number of labels that the entry of a group names.
+const NAMED_OF_GROUP: usize = 4;
+/// Motions m/T with so many closings or more have one entry among those of groups, because their colours are similar.
+const MANY: u64 = 4;
 
-/// A motion at a point of a map.
+/// A motion at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointMotion {
-    /// The index of its group in the legend.
-    pub group: usize,
+    /// The number of its label.
+    pub class: usize,
     /// The share of starts that lead to it.
     pub share: f64,
     /// The value of a quantity, if the figure shows one.
     pub value: Value,
 }
 
-/// The motions at each point of a map, the most frequent first, with the values of a field of the plan in these units.
-#[must_use]
-pub fn points<V: Varied, F: FieldName>(
-    found: &RegionMap<V, F>,
-    field: Option<usize>,
-    units: &Units,
-) -> Vec<Vec<PointMotion>> {
-    let point = |(k, motions): (usize, &Vec<Share>)| {
-        let there = units_over(units, &found.axes, &Axis::at(&found.axes, k as u64));
-        let motion = |motion: &Share| {
-            let value = |field: usize| Some(motion.quantities.get(field)? * found.fields[field].unit(&there));
-            let value = Value::of(&motion.label, field.and_then(value));
-            PointMotion { group: group(&motion.label), share: motion.share, value }
-        };
-        motions.iter().map(motion).collect()
-    };
-    found.points.iter().enumerate().map(point).collect()
+/// The motions at each of many points, the most frequent first.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PointMotions {
+    /// The distinct labels.
+    pub labels: Vec<String>,
+    /// The motions.
+    pub points: Vec<Vec<PointMotion>>,
+    numbers: BTreeMap<String, usize>,
+}
+
+impl PointMotions {
+    /// The number of a label, which is added if it is new.
+    pub fn class(&mut self, label: &str) -> usize {
+        self.numbers.get(label).copied().unwrap_or_else(|| {
+            self.numbers.insert(label.to_owned(), self.labels.len());
+            self.labels.push(label.to_owned());
+            self.labels.len() - 1
+        })
+    }
+
+    /// The motions of a map, with the values of a field of the plan in these units.
+    #[must_use]
+    pub fn of_map<V: Varied, F: FieldName>(found: &RegionMap<V, F>, field: Option<usize>, units: &Units) -> Self {
+        let mut all = Self::default();
+        for (k, motions) in found.points.iter().enumerate() {
+            let there = units_over(units, &found.axes, &Axis::at(&found.axes, k as u64));
+            let motion = |motion: &Share| {
+                let value = |field: usize| Some(motion.quantities.get(field)? * found.fields[field].unit(&there));
+                let value = Value::of(&motion.label, field.and_then(value));
+                PointMotion { class: all.class(&motion.label), share: motion.share, value }
+            };
+            let point = motions.iter().map(motion).collect();
+            all.points.push(point);
+        }
+        all
+    }
+
+    /// The numbers of the labels in the order of a legend.
+    #[must_use]
+    pub fn in_order(&self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.labels.len()).collect();
+        sort_by_key(&mut order, |class| rank(&self.labels[*class]));
+        order
+    }
+}
+
+/// The place of a label in a legend: that of its group, and its numbers of periods and impacts.
+fn rank(label: &str) -> (usize, u64, u64) {
+    let group = GROUPS.iter().position(|group| *group == legend_group(label)).unwrap_or(GROUPS.len());
+    let (m, n) = label.split_once('/').unwrap_or((label, ""));
+    (group, n.parse().unwrap_or(0), m.parse().unwrap_or(0))
+}
+
+/// The legend of labels, whose signs are those of `key`. With many labels those of a group share an entry.
+pub(crate) fn legend<'a>(labels: impl Iterator<Item = &'a str>, key: impl Fn(&str) -> Key) -> Legend {
+    let mut labels: Vec<&str> = labels.collect();
+    sort_by_key(&mut labels, |label| rank(label));
+    let mut entries: Vec<Entry> = Vec::new();
+    if labels.len() <= NAMED {
+        for label in labels {
+            let (key, word) = (key(label), words(legend_group(label), &[label]));
+            // labels of one group that have the same style, because a group has five, share an entry
+            match entries.iter_mut().find(|other| other.key == key) {
+                Some(other) => other.label.push_str(&format!(", {word}")),
+                None => entries.push(Entry { key, label: word }),
+            }
+        }
+        return Legend { entries, ..Legend::below() };
+    }
+    // motions m/T have no group
+    let closings: Vec<u64> = labels.iter().filter_map(|label| unforced(label)).collect();
+    let grouped: Vec<&str> = labels.into_iter().filter(|label| unforced(label).is_none()).collect();
+    for group in GROUPS {
+        let own: Vec<&str> = grouped.iter().copied().filter(|label| legend_group(label) == group).collect();
+        if !own.is_empty() {
+            entries.push(Entry { key: key(group), label: words(group, &own) });
+        }
+    }
+    for m in (0..MANY).filter(|m| closings.contains(m)) {
+        entries.push(Entry { key: key(&format!("{m}/T")), label: format!("{m}/T") });
+    }
+    if closings.iter().any(|m| *m >= MANY) {
+        entries.push(Entry { key: key(&format!("{MANY}/T")), label: format!("*m*/T, *m* ≥ {MANY}") });
+    }
+    Legend { entries, ..Legend::below() }
+}
+
+/// The words of a group for these labels in it: they are named, or some of many.
+fn words(group: &str, labels: &[&str]) -> String {
+    if !group.contains('/') && !labels.iter().any(|label| unforced(label).is_some()) {
+        return legend_text(group).to_owned();
+    }
+    let named: Vec<String> = labels.iter().take(NAMED_OF_GROUP).map(|label| figure::label(label)).collect();
+    let more = labels.len() - named.len();
+    if more == 0 { named.join(", ") } else { format!("{} and {more} more", named.join(", ")) }
 }

@@ -1,17 +1,18 @@
 //! The motions at points that are no grid, in the colours of their labels, over the two numbers that vary first.
 
-use super::map::LabelledCells;
+use crate::figure::point_motion::legend;
 use crate::varied::Varied;
 use crate::{ReportError, Units};
 use std::borrow::Cow;
-use vibroimpact_plot::{Figure, FigureAxis, Panel, Points, class_style};
+use vibroimpact_plot::{Colour, Figure, FigureAxis, Key, Panel, Points, class_style};
 use vibroimpact_study::PointsPlan;
 
-/// The largest number of points that are drawn in full size, and the size of more points.
+/// The largest number of points that are drawn in full size, and the sizes of few and of more points.
 const FEW: usize = 2_000;
+const LARGE: f64 = 8.0;
 const SMALL: f64 = 4.0;
 
-/// Draws the label of the motion at each point; a point without a motion is left out. A single number has no ordinate.
+/// Draws the label of the motion at each point of a plan; a point without a motion is left out. A single number has no ordinate.
 ///
 /// # Errors
 /// [`ReportError::Scattered`] if nothing varies.
@@ -29,23 +30,36 @@ pub(crate) fn figure<'a, V: Varied + Into<Cow<'static, str>>>(
         let there = (0..width).fold(*units, |units, of| points.vary(of).units_at(&units, points.at(of, k)));
         if column < width { points.at(column, k) * points.vary(column).unit(&there) } else { 0.0 }
     };
-    let mut cells = LabelledCells::default();
+    let labels = labels.take(count).enumerate();
+    let motions = labels.filter_map(|(k, label)| Some(((at(0, k), at(1, k)), label?)));
+    Ok(draw((FigureAxis::new(across), up), count, motions).title(title))
+}
+
+/// Draws motions at places; there are so many points.
+pub fn draw<'a>(
+    (across, up): (FigureAxis, FigureAxis),
+    count: usize,
+    motions: impl Iterator<Item = ((f64, f64), Cow<'a, str>)>,
+) -> Figure {
+    let size = if count > FEW { SMALL } else { LARGE };
+    // the rim makes light colours visible on white paper
+    let dots = |label: &str| Points::new(vec![], vec![], class_style(label).colour).size(size).rim(Colour::GREY);
     let mut places: Vec<(String, Vec<f64>, Vec<f64>)> = Vec::new();
-    for (k, label) in labels.take(count).enumerate().filter_map(|(k, label)| Some((k, label?))) {
+    for ((x, y), label) in motions {
         let class = places.iter().position(|(known, ..)| **known == *label).unwrap_or_else(|| {
             places.push((label.clone().into_owned(), Vec::new(), Vec::new()));
             places.len() - 1
         });
-        places[class].1.push(at(0, k));
-        places[class].2.push(at(1, k));
-        cells.push(core::iter::once((label, 1.0)));
+        places[class].1.push(x);
+        places[class].2.push(y);
     }
-    let mut panel = Panel::new(FigureAxis::new(across), up);
+    let (mut panel, mut labels) = (Panel::new(across, up), Vec::new());
     for (label, xs, ys) in places {
-        let dots = Points::new(xs, ys, class_style(&label).colour);
-        panel = panel.with(if count > FEW { dots.size(SMALL) } else { dots });
+        panel = panel.with(Points { xs, ys, ..dots(&label) });
+        labels.push(label);
     }
-    Ok(Figure::new(panel).size(680.0, 620.0).title(title).legend(cells.legend(class_style)))
+    let legend = legend(labels.iter().map(String::as_str), |label| Key::Point(dots(label).style));
+    Figure::new(panel).size(680.0, 620.0).legend(legend)
 }
 
 #[cfg(test)]

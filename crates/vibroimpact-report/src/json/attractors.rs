@@ -11,10 +11,13 @@ use vibroimpact::verdict::{Census, StartBox, System, Verdict};
 /// The answer to `vibro attractors`.
 #[derive(JsonSchema, Serialize)]
 pub(super) struct AttractorsAnswer<'a> {
+    /// The motions, the most frequent first.
     motions: Vec<SharedMotion<'a>>,
     #[serde(flatten)]
     certainty: Certainty,
+    /// The number of starts.
     starts: u64,
+    /// The seed of their sequence.
     seed: u64,
     /// The box of the starts of an oscillator.
     #[serde(rename = "box", skip_serializing_if = "Option::is_none")]

@@ -26,12 +26,17 @@ pub(crate) const START: &str = "start";
 pub struct BranchAnswer<'a> {
     /// The label of the orbit at which the first branch begins.
     pub label: String,
+    /// The number that varies.
     vary: String,
+    /// The value at which the branch begins.
     from: f64,
+    /// The other end of its range.
     to: f64,
+    /// The number that varies with it along a line, and its values at the ends of the range.
     #[serde(skip_serializing_if = "Option::is_none")]
     also: Option<Pair>,
-    /// Absent for the motion from the start of a machine.
+    /// The number of the orbit at which it begins, and how many there are; absent for the motion from the start of a
+    /// machine.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub orbit: Option<ChosenObject>,
     /// The branches; that of the orbit comes first.
@@ -100,21 +105,25 @@ pub struct PointObject<'a> {
     /// Values of both parameters, on a line through two.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) values: Option<[f64; 2]>,
-    /// The label of the cycle; at an event of the one before it, on the way from the start.
+    /// The label m/n, or m/T without forcing; at an event of the cycle before it, on the way from the start.
     pub label: String,
     /// The time of one period.
     pub period: f64,
+    /// The events of one period.
     pub(crate) cycle: Vec<EventObject<'a>>,
+    /// Floquet multipliers, without the 1 of each free translation; null at a grazing impact, where they are infinite.
     pub(crate) multipliers: Vec<[f64; 2]>,
+    /// By how much each coordinate moves on in one period, in machines that can be translated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) drift: Option<Map<String, Value>>,
     /// The quantity that the figure shows, of a machine without stops.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) quantities: Option<Map<String, Value>>,
+    /// Whether it is stable.
     pub(crate) stable: bool,
-    /// Whether neighbours approach the cycle.
+    /// `stable`, `neutral` (a multiplier on the unit circle to rounding and none outside) or `unstable`.
     pub stability: &'static str,
-    /// Whether it is a motion.
+    /// Whether it is admissible.
     pub admissible: bool,
     /// Velocity and position of an oscillator at phase 0 of the force in each of its periods, where they are shown.
     #[serde(skip)]
@@ -128,6 +137,7 @@ pub struct BranchEventObject<'a> {
     pub kind: &'static str,
     /// The value of the parameter.
     pub parameter: f64,
+    /// The values of both numbers, on a line through two.
     #[serde(skip_serializing_if = "Option::is_none")]
     values: Option<[f64; 2]>,
     /// Index among the points.
@@ -158,19 +168,22 @@ pub struct EventFields<'a> {
     pub before: String,
     /// The label after it; null where the branch ends.
     pub after: Option<String>,
+    /// The stop, or joint, of the event.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) stop: Option<&'a str>,
-    /// Of a grazing contact, whether an impact appears beyond it or disappears.
+    /// Of a grazing contact, on the way from the start: whether an impact appears beyond it or disappears.
     #[serde(skip_serializing_if = "Option::is_none")]
     appears: Option<bool>,
     /// Whether the parameter turns back.
     #[serde(skip_serializing_if = "Option::is_none")]
     turns: Option<bool>,
-    /// Number of the impact of an oscillator, counted from 1, and the phase of the contact.
+    /// The number of the impact of a grazing contact of an oscillator, counted from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     impact: Option<usize>,
+    /// The phase of this contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     phase: Option<f64>,
+    /// For two identical stops, the simultaneous contact with the other one.
     #[serde(skip_serializing_if = "Option::is_none")]
     also: Option<TouchObject>,
 }

@@ -19,10 +19,12 @@ use vibroimpact_study::{CurvePlan, EventCurve};
 pub struct CurveAnswer<'a> {
     /// The label of the orbit on whose branch the event is.
     pub label: String,
+    /// `fold`, `flip` or `grazing`; of a machine also `torus`, `corner`, `sticking` or `holding`.
     kind: &'static str,
     /// The stop or joint of a curve of grazing, sticking or holding of a machine, or the stops and joints of a corner.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     of: Vec<&'a str>,
+    /// The two numbers that vary.
     parameters: [String; 2],
     /// Absent for the motion from the start of a machine.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -52,6 +54,7 @@ pub struct Through {
 /// A point of a curve.
 #[derive(JsonSchema, Serialize)]
 pub struct PointObject<'a> {
+    /// Values of both parameters.
     pub(crate) values: [f64; 2],
     /// The label of the cycle.
     pub label: String,
@@ -61,10 +64,12 @@ pub struct PointObject<'a> {
     pub(crate) period: f64,
     /// The events; on a grazing curve of an oscillator including the impact of speed zero, on one of a machine without the touch.
     pub(crate) cycle: Vec<EventObject<'a>>,
+    /// Floquet multipliers; on a curve of grazing of a machine those of the cycle without the contact.
     pub(crate) multipliers: Vec<[f64; 2]>,
-    /// By how much the condition of the curve of a machine fails, and the phase of the touch.
+    /// By how much the condition of the curve of a machine fails.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) residual: Option<f64>,
+    /// The phase of the touch.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) touch: Option<f64>,
 }
@@ -72,7 +77,7 @@ pub struct PointObject<'a> {
 /// An event of a curve.
 #[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
 pub struct CurveEventObject<'a> {
-    /// Its kind.
+    /// `cusp`, `resonant grazing`, `double grazing`, `1:1`, `1:2`, `fold-flip`, `end of box` and others.
     pub kind: &'static str,
     /// The values of both parameters.
     pub values: [f64; 2],

@@ -26,6 +26,7 @@ struct TrackObject {
     time: f64,
     q: Vec<f64>,
     qdot: Vec<f64>,
+    /// The phase of the force.
     phase: f64,
     /// The distance of the two states between which the border passes, relative to their size.
     apart: f64,

@@ -12,20 +12,26 @@ use vibroimpact::machine::Machine;
 /// The answer to `vibro lyapunov`.
 #[derive(JsonSchema, Serialize)]
 pub struct LyapunovAnswer<'a> {
+    /// The motion after the transient.
     motion: MotionObject<'a>,
     /// Per unit of time, the largest first; null if the motion ends in a way for which there are none.
     exponents: Option<Vec<Estimate>>,
-    /// Null without forcing.
+    /// Per forcing period; null without forcing.
     exponents_per_period: Option<Vec<Estimate>>,
+    /// Number of closings of stops in a forcing period.
     impacts_per_period: Option<Estimate>,
     /// Whether they are those of a cycle or of a motion without impacts, and not measured.
     exact: bool,
-    /// The sum of the exponents of an oscillator, and the exact value of the sum.
+    /// The measured sum of both exponents of an oscillator.
     #[serde(skip_serializing_if = "Option::is_none")]
     sum: Option<Estimate>,
+    /// The exact value of this sum: 2 ln(eps) times the rate of impacts, minus 2 zeta.
     #[serde(skip_serializing_if = "Option::is_none")]
     identity: Option<f64>,
+    /// Kaplan-Yorke dimensions; null where the largest exponent is not known to differ from 0.
     dimension: Dimensions,
+    /// How the exponents of an oscillator were obtained: `measured`, `no_impact`, `sticks`, `stuck`, `touches` or
+    /// `undecided`.
     #[serde(skip_serializing_if = "Option::is_none")]
     grounds: Option<GroundsObject>,
 }

@@ -12,19 +12,29 @@ use vibroimpact_study::{MotionBox, MotionMargins, ParameterMargin, Scope};
 /// The answer to `vibro margins`.
 #[derive(JsonSchema, Serialize)]
 pub(super) struct MarginsAnswer<'a> {
+    /// The motion.
     motion: MotionObject<'a>,
+    /// The nearest events in each parameter; none of a motion that is not periodic.
     parameters: Vec<ParameterObject<'a>>,
+    /// The event with the smallest change in units of the scale of its parameter; null if there is none in the ranges.
     nearest: Option<NearestObject<'a>>,
+    /// The largest box in which the motion was found; null for a motion that is not periodic or not stable, and of
+    /// machines, for which no box is looked for.
     #[serde(rename = "box")]
     motion_box: Option<BoxObject<'a>>,
 }
 
 #[derive(JsonSchema, Serialize)]
 pub(crate) struct ParameterObject<'a> {
+    /// Its name.
     pub(crate) parameter: &'a str,
+    /// Its value in the system.
     pub(crate) value: f64,
+    /// The change of the parameter that counts as 1 in the box.
     pub(crate) scale: f64,
+    /// The nearest event below.
     pub(crate) down: EndObject<'a>,
+    /// The nearest event above.
     pub(crate) up: EndObject<'a>,
 }
 
@@ -33,9 +43,13 @@ pub(crate) struct ParameterObject<'a> {
 pub(crate) struct EndObject<'a> {
     /// The end of the range in which events are looked for.
     pub(crate) limit: f64,
+    /// The value of the parameter at the event.
     pub(crate) at: Option<f64>,
+    /// Its distance from the value of the system.
     pub(crate) distance: Option<f64>,
+    /// That distance relative to the value of the system.
     pub(crate) relative: Option<f64>,
+    /// The event.
     pub(crate) event: Option<MarginEvent<'a>>,
 }
 
@@ -50,6 +64,7 @@ pub(crate) struct MarginEvent<'a> {
 #[derive(JsonSchema, Serialize)]
 struct NearestObject<'a> {
     parameter: &'a str,
+    /// `down` or `up`.
     direction: &'static str,
     /// The change in units of the scale.
     scaled: f64,
@@ -61,12 +76,16 @@ struct BoxObject<'a> {
     size: f64,
     /// The largest size that was allowed.
     largest: f64,
+    /// The range of each parameter.
     parameters: Vec<RangeObject<'a>>,
-    /// Number of points in the box at which the motion was found, and of the lines on which they lie.
+    /// Number of points in the box at which the motion was found.
     points: u64,
+    /// Number of the lines on which they lie.
     lines: u64,
     /// Whether it is proved that the motion exists in the whole box.
     proved: bool,
+    /// Why the motion was not found next to the box, and the values of the parameters there; null if the box ends at
+    /// the end of a range.
     edge: Option<EdgeObject<'a>>,
 }
 

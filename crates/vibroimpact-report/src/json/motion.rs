@@ -21,36 +21,50 @@ use vibroimpact_study::ImpactsByStop;
 /// The JSON object of a motion.
 #[derive(Default, JsonSchema, Serialize)]
 pub struct MotionObject<'a> {
+    /// `periodic`, `no_impact`, `chaotic`, `stuck` or `undecided`. All of these are results; none is an error.
     kind: &'static str,
+    /// m/n for m closings of stops in n forcing periods, `inf/n` with a complete chatter, m/T without forcing; `0`
+    /// without impacts, `chaotic`, `stuck`, `undecided`.
     pub(crate) label: String,
+    /// m of m/n.
     impacts: Option<u32>,
+    /// n of m/n.
     periods: Option<u32>,
     /// The time of one period of a cycle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) period: Option<f64>,
     /// Rests on stops, and holds of joints, in one period.
     sticks: Option<usize>,
+    /// Whether it is stable; null if this is not decided.
     pub(crate) stable: Option<bool>,
+    /// `stable`, `neutral` (a multiplier on the unit circle to rounding and none outside, as of every elastic motion)
+    /// or `unstable`; null if this is not decided.
     pub(crate) stability: Option<&'static str>,
     /// Closings of each stop in one period; null for infinitely many.
     #[serde(skip_serializing_if = "Option::is_none")]
     counts: Option<Map<String, Value>>,
+    /// Floquet multipliers, two for each coordinate, the largest first. In a machine that can be translated as a whole,
+    /// the 1 that belongs to this is left out.
     pub(crate) multipliers: Option<Vec<[f64; 2]>>,
-    /// By how much each coordinate moves on in one period, and the mean velocity of this, in machines that can be translated.
+    /// By how much each coordinate moves on in one period, in machines that can be translated.
     #[serde(skip_serializing_if = "Option::is_none")]
     drift: Option<Map<String, Value>>,
+    /// The mean velocity of this.
     #[serde(skip_serializing_if = "Option::is_none")]
     drift_velocity: Option<Map<String, Value>>,
+    /// The events of one period of a cycle, the fastest closing first. Impacts of a complete chatter that are summed
+    /// are not listed.
     pub(crate) cycle: Vec<EventObject<'a>>,
-    /// The first stop that stays closed for ever, where the structure rests, and all of them, which compliant ones can be
-    /// without a rest.
+    /// The first stop that stays closed for ever, where the structure rests.
     #[serde(skip_serializing_if = "Option::is_none")]
     stop: Option<&'a str>,
+    /// The stops that stay closed for ever, of a motion without a further event. Compliant ones can be without a rest.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     stops: Vec<&'a str>,
     /// A state between two events from which the motion can be started.
     #[serde(skip_serializing_if = "Option::is_none")]
     state: Option<StateObject<'a>>,
+    /// The distance between the states before and after one period of a cycle.
     #[serde(skip_serializing_if = "Option::is_none")]
     residual: Option<f64>,
     /// Why an oscillator has no more impacts, and for how many periods.
@@ -59,6 +73,7 @@ pub struct MotionObject<'a> {
     /// The largest exponent of a chaotic motion, or of an undecided one if it was measured, per unit of time.
     #[serde(skip_serializing_if = "Option::is_none")]
     lyapunov: Option<Estimate>,
+    /// All of them, the largest first.
     #[serde(skip_serializing_if = "Option::is_none")]
     exponents: Option<Vec<Estimate>>,
     /// The events (of an oscillator: impacts) over which chaos was seen, or that were followed without a verdict.
@@ -67,6 +82,8 @@ pub struct MotionObject<'a> {
     /// Why the motion is undecided.
     #[serde(skip_serializing_if = "Option::is_none")]
     why: Option<&'static str>,
+    /// Quantities of the motion in the units of the system; of a machine its parts have theirs. Null where one is not
+    /// defined.
     quantities: Option<Map<String, Value>>,
     /// Three standard errors of the means among the quantities of a chaotic motion.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -355,7 +372,9 @@ pub const fn undecided(why: UndecidedCause) -> &'static str {
 pub(super) struct SharedMotion<'a> {
     #[serde(flatten)]
     pub(super) motion: MotionObject<'a>,
+    /// The share of the starts that lead to it, 0 to 1.
     pub(super) share: f64,
+    /// The number of these starts.
     pub(super) starts: u64,
 }
 

@@ -13,6 +13,7 @@ use vibroimpact_study::Orbit;
 /// The answer to `vibro orbit`.
 #[derive(JsonSchema, Serialize)]
 pub(crate) struct OrbitAnswer<'a> {
+    /// The orbits.
     pub(crate) orbits: Vec<OrbitObject<'a>>,
 }
 
@@ -21,7 +22,9 @@ pub(crate) struct OrbitAnswer<'a> {
 pub struct OrbitObject<'a> {
     #[serde(flatten)]
     pub(crate) motion: MotionObject<'a>,
+    /// False for a solution of the equations of an oscillator that passes through a stop.
     pub(crate) admissible: bool,
+    /// The first contact of such a solution with a stop before its next impact.
     earlier_contact: Option<ContactObject>,
 }
 
@@ -29,6 +32,7 @@ pub struct OrbitObject<'a> {
 struct ContactObject {
     /// Number of the impact before the contact, counted from 1; none if the motion has no impacts.
     after_impact: Option<usize>,
+    /// `upper` or `lower`.
     stop: &'static str,
     /// Time from that impact, or from phase 0, to the contact.
     time: f64,

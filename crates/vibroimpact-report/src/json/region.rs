@@ -9,16 +9,21 @@ use vibroimpact_study::{RegionPlan, Regions};
 /// The answer to `vibro region`. Pairs of values are in the order of `parameters`.
 #[derive(JsonSchema, Serialize)]
 pub(super) struct RegionAnswer {
+    /// The label m/n of the motion.
     label: String,
+    /// The parameters on the abscissa and the ordinate.
     parameters: [String; 2],
     /// Whether no energy is lost, at impacts or between them. The motion is then neutrally stable wherever it exists.
     neutrally_stable: bool,
+    /// The region where the motion exists.
     existence: RegionObject,
+    /// The region where it is stable.
     stability: RegionObject,
 }
 
 #[derive(JsonSchema, Serialize)]
 struct RegionObject {
+    /// Its boundaries; those of different sheets may overlap.
     polygons: Vec<PolygonObject>,
     /// Points of the grid where the search for orbits contradicts the polygons.
     unresolved: Vec<[f64; 2]>,
@@ -26,8 +31,11 @@ struct RegionObject {
 
 #[derive(JsonSchema, Serialize)]
 struct PolygonObject {
+    /// Whether it is the boundary of a hole.
     hole: bool,
+    /// `below` for orbits whose multipliers are below +1, `above` for the others.
     sheet: &'static str,
+    /// Values of the two parameters; the region lies to the left of the polygon.
     vertices: Vec<[f64; 2]>,
     /// The kind of boundary from each vertex to the next: fold, flip, no speed, touch, merging, frame; of a machine also torus and
     /// change.

@@ -9,11 +9,15 @@ use vibroimpact_study::ResponseRow;
 /// The answer to `vibro response`.
 #[derive(JsonSchema, Serialize)]
 pub(super) struct ResponseAnswer<'a> {
+    /// The number that varies.
     vary: &'a str,
+    /// Its values.
     over: Place,
     /// The quantity that `value` is.
     quantity: String,
+    /// The motions of the sweeps with rising and with falling values.
     sweeps: [SweepObject; 2],
+    /// The branches on which their cycles lie.
     branches: Vec<BranchObject>,
 }
 
@@ -31,12 +35,17 @@ struct BranchObject {
 /// A motion of a sweep, or an orbit of a branch.
 #[derive(JsonSchema, Serialize)]
 struct PointObject {
+    /// The value of the parameter.
     parameter: f64,
+    /// The label of the motion.
     label: String,
     /// The quantity; null where it is not defined.
     value: f64,
+    /// Whether it is stable.
     stable: bool,
+    /// `stable`, `neutral` or `unstable`.
     stability: Option<&'static str>,
+    /// Whether it is admissible. Motions of a sweep are.
     admissible: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     event: Option<&'static str>,

@@ -14,17 +14,19 @@ use vibroimpact::{Oscillator, Start};
 /// The answer to `vibro settle`.
 #[derive(JsonSchema, Serialize)]
 pub struct SettleAnswer<'a> {
+    /// The motion.
     motion: MotionObject<'a>,
-    /// Of an oscillator: impacts.
+    /// The number of events, of an oscillator impacts, that were followed.
     events_followed: u64,
+    /// The time that was followed.
     time_followed: f64,
     /// Chaos before the motion settled.
     #[serde(skip_serializing_if = "Option::is_none")]
     chaotic_transient: Option<ChaosObject>,
-    /// The spectrum of the positions; none of a motion that is no cycle.
+    /// The spectrum of the position of a cycle of an oscillator.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     harmonics: Vec<HarmonicObject>,
-    /// The way from the start to the impact at which the motion was settled; none of motions that do not settle.
+    /// The way of an oscillator from the start until it had settled.
     #[serde(skip_serializing_if = "Option::is_none")]
     transient: Option<TransientObject>,
     #[serde(skip_serializing_if = "Option::is_none")]

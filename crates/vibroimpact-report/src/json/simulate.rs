@@ -32,8 +32,12 @@ pub enum Events<'a> {
 /// The reason why the list of events ends, and the time.
 #[derive(JsonSchema, Serialize)]
 struct EndObject {
+    /// `impact_limit`, `event_limit`, `time_limit`, `no_more_impacts`, `stuck`, `search_limit`, `inconsistent` or
+    /// `collapse`.
     reason: &'static str,
+    /// The time at which the list ends.
     time: f64,
+    /// Why an oscillator has no more impacts, if this is decided.
     #[serde(skip_serializing_if = "Option::is_none")]
     horizon: Option<HorizonObject>,
 }

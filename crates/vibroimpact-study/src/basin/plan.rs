@@ -31,8 +31,8 @@ pub struct BasinPlan<V = Coordinate, Q = Quantity> {
     /// differ. All of them when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refine: Option<u32>,
-    /// Impacts to follow each start for, at most: [`SettleOptions::at_most`](vibroimpact::verdict::SettleOptions::at_most). As many as it
-    /// takes, within the default of `SettleOptions`, when absent.
+    /// Budget of impacts for each start, of a machine of events, 1 to 1000000; 20000 when absent. Motions that have not settled by
+    /// then are undecided.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impacts: Option<u32>,
     /// Quantities of each motion to report beside its label.

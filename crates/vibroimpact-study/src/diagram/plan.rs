@@ -36,7 +36,7 @@ pub struct DiagramPlan<V = Parameter, S = Show> {
     /// How the starts at each value are chosen.
     #[serde(default)]
     pub direction: SweepDirection,
-    /// Impacts (for [`Show::Velocity`]) or forcing periods (for [`Show::Strobe`]) before anything is shown. The motion whose
+    /// Impacts, or forcing periods for states at phase 0, before anything is shown. The motion whose
     /// quantity is shown is settled, however long its transient is.
     #[serde(default = "transient")]
     pub transient: u64,

@@ -34,7 +34,7 @@ pub struct LyapunovPlan<V = Coordinate> {
     /// Impacts to pass before, of a machine events: up to 1000000, 1000 when absent. For the stroboscopic section forcing periods.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub transient: Option<u64>,
-    /// Points to show of each section; none when absent.
+    /// Number of points of each section of the attractor, 1 to 100000; no sections when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub points: Option<u64>,
 }

@@ -24,15 +24,15 @@ pub struct MapPlan<V = Coordinate, Q = Quantity> {
     pub axes: Vec<Axis<V>>,
     /// Starts per point: the first at rest, the second on the free motion if it clears the stops, the others scattered.
     pub starts: u64,
-    /// Which sequence of them; 0, of a machine 1, when absent.
+    /// Seed of their sequence; 0, of a machine 1, when absent.
     #[serde(default)]
     pub seed: u64,
     /// Where results are stored: compute every K-th point first, K being this number, and the points between only where neighbours
     /// differ. All of them when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refine: Option<u32>,
-    /// Impacts to follow each start for, at most: [`SettleOptions::at_most`](vibroimpact::verdict::SettleOptions::at_most). As many as it
-    /// takes, within the default of `SettleOptions`, when absent.
+    /// Budget of impacts for each start, of a machine of events, 1 to 1000000; 20000 when absent. Motions that have not settled by
+    /// then are undecided.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impacts: Option<u32>,
     /// Quantities of each motion to report beside its label.

@@ -21,7 +21,8 @@ pub struct ResponsePlan<V = Parameter, Q = Quantity> {
     /// The quantity that is reported; the displacement amplitude, of a machine that of the first coordinate, when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub quantity: Option<Q>,
-    /// Impacts to follow each motion of a sweep for, at most, as for a map; the default of `SettleOptions` when absent.
+    /// Budget of impacts for the motion at each value, of a machine of events, 1 to 1000000; 20000 when absent. Motions that have
+    /// not settled by then are undecided.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impacts: Option<u32>,
 }

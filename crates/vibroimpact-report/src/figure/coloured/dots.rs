@@ -2,10 +2,8 @@
 
 use super::Value;
 use crate::figure::plane::PlaneAxis;
-use crate::figure::point_motion::PointMotion;
-use vibroimpact_plot::{
-    Colour, Figure, FigureAxis, GROUPS, Legend, Panel, PointStyle, Points, Shape, class_style, legend_text,
-};
+use crate::figure::point_motion::{PointMotions, legend};
+use vibroimpact_plot::{Colour, Figure, FigureAxis, Key, Panel, PointStyle, Points, Shape, class_style};
 
 /// Diameter of dots, and of dots over an axis with more values than [`MANY`].
 const LARGE: f64 = 10.0;
@@ -17,7 +15,8 @@ const AWAY: f64 = 0.08;
 /// Draws the values of all motions at each value of an axis; `name` is that of the quantity. Motions whose value is no finite number have crosses below the
 /// others, infinite values triangles above them.
 #[must_use]
-pub fn draw(side: &PlaneAxis, points: &[Vec<PointMotion>], name: String, title: String) -> Figure {
+pub fn draw(side: &PlaneAxis, motions: &PointMotions, name: String, title: String) -> Figure {
+    let points = &motions.points;
     let all = || points.iter().enumerate().flat_map(|(k, motions)| motions.iter().map(move |motion| (k, motion)));
     let numbers = || all().filter_map(|(_, motion)| motion.value.finite());
     let (low, high) = (numbers().fold(f64::INFINITY, f64::min), numbers().fold(f64::NEG_INFINITY, f64::max));
@@ -35,19 +34,19 @@ pub fn draw(side: &PlaneAxis, points: &[Vec<PointMotion>], name: String, title: 
     let range = (low - below * away, high + above * away);
     let ordinate = FigureAxis::new(name).range(range.0, range.1);
     let mut panel = Panel::new(side.axis(), ordinate);
-    let mut legend = Legend::below();
-    for (number, group) in GROUPS.iter().enumerate() {
-        let of = all().filter(|(_, motion)| motion.group == number);
+    // the rim makes light colours visible on white paper
+    let dots = |label: &str| Points::new(vec![], vec![], class_style(label).colour).size(size).rim(Colour::GREY);
+    let mut present: Vec<&str> = Vec::new();
+    for class in motions.in_order() {
+        let of = all().filter(|(_, motion)| motion.class == class);
         let places = of.filter_map(|(k, motion)| motion.value.finite().map(|value| (side.at(k), value)));
         let (xs, ys): (Vec<f64>, Vec<f64>) = places.unzip();
-        if xs.is_empty() {
-            continue;
+        if !xs.is_empty() {
+            present.push(&motions.labels[class]);
+            panel.add(Points { xs, ys, ..dots(&motions.labels[class]) });
         }
-        // the rim makes light colours visible on white paper
-        let dots = Points::new(xs, ys, class_style(group).colour).size(size).rim(Colour::GREY);
-        legend = legend.points(&dots, legend_text(group));
-        panel.add(dots);
     }
+    let mut legend = legend(present.into_iter(), |label| Key::Point(dots(label).style));
     for value in Value::MISSING {
         let xs: Vec<f64> = all().filter(|(_, motion)| motion.value == value).map(|(k, _)| side.at(k)).collect();
         if xs.is_empty() {
@@ -71,17 +70,22 @@ pub fn draw(side: &PlaneAxis, points: &[Vec<PointMotion>], name: String, title: 
 mod tests {
     use super::*;
     use crate::Units;
+    use crate::figure::point_motion::PointMotion;
     use vibroimpact_study::{Axis, Parameter, Span};
 
     #[test]
     fn every_motion_has_a_dot_and_every_missing_value_a_mark() {
         let axis = Axis::parameter(Parameter::Gap, "0:2:3".parse::<Span>().unwrap());
-        let motion = |group, value| PointMotion { group, share: 0.5, value };
-        let points = [
-            vec![motion(1, Value::Finite(1.0)), motion(2, Value::Finite(2.0))],
-            vec![motion(1, Value::Finite(1.5)), motion(15, Value::Undecided)],
-            vec![motion(12, Value::Infinite)],
-        ];
+        let mut points = PointMotions::default();
+        for point in [
+            vec![("1/1", Value::Finite(1.0)), ("2/1", Value::Finite(2.0))],
+            vec![("1/1", Value::Finite(1.5)), ("undecided", Value::Undecided)],
+            vec![("inf/1", Value::Infinite)],
+        ] {
+            let motion = |(label, value)| PointMotion { class: points.class(label), share: 0.5, value };
+            let point = point.into_iter().map(motion).collect();
+            points.points.push(point);
+        }
         let side = PlaneAxis::of(&axis, &Units::default()).unwrap();
         let svg = draw(&side, &points, "largest impact speed".to_owned(), String::new()).to_svg();
         // one path for each kind of mark, and one in the legend; the dots have a rim each

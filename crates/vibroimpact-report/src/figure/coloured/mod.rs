@@ -9,7 +9,7 @@ pub use plane::draw as draw_plane;
 pub use value::{Coloured, Of, Value};
 
 use crate::figure::plane::Sides;
-use crate::figure::point_motion::{PointMotion, group, points};
+use crate::figure::point_motion::{PointMotion, PointMotions};
 use crate::{FieldName, ReportError, Units, Varied};
 use vibroimpact::verdict::{CountedMotion, System};
 use vibroimpact_plot::Figure;
@@ -26,7 +26,7 @@ pub fn of_map<V: Varied, F: FieldName>(
     title: String,
 ) -> Result<Figure, ReportError> {
     let field = place(&found.fields, &coloured.field)?;
-    let points = points(found, Some(field), units);
+    let points = PointMotions::of_map(found, Some(field), units);
     of_points(&Sides::of(&found.axes, units)?, &points, coloured, (found.fields[field].axis(units), title))
 }
 
@@ -36,17 +36,17 @@ pub fn of_map<V: Varied, F: FieldName>(
 /// As [`draw_plane`].
 pub fn of_points(
     sides: &Sides,
-    points: &[Vec<PointMotion>],
+    motions: &PointMotions,
     coloured: &Coloured,
     (name, title): (String, String),
 ) -> Result<Figure, ReportError> {
     let plane = match sides {
-        Sides::Line(side) => return Ok(draw_dots(side, points, name, title)),
+        Sides::Line(side) => return Ok(draw_dots(side, motions, name, title)),
         Sides::Plane(plane) => plane,
     };
-    let several = points.iter().any(|motions| motions.len() > 1);
+    let several = motions.points.iter().any(|motions| motions.len() > 1);
     let cell = |motions: &Vec<PointMotion>| coloured.of.among(motions.iter().map(|motion| motion.value));
-    let cells: Vec<Value> = points.iter().map(cell).collect();
+    let cells: Vec<Value> = motions.points.iter().map(cell).collect();
     let names = (name, several.then(|| coloured.of.sentence()));
     let figure = draw_plane(plane, &cells, names, coloured.range)?;
     Ok(figure.title(title))
@@ -65,15 +65,16 @@ pub fn of_basin<S: System, V: Varied, F: FieldName>(
 ) -> Result<Figure, ReportError> {
     let fields = &found.plan.fields;
     let field = place(fields, &coloured.field)?;
+    let mut all = PointMotions::default();
     let motion = |(motion, values): (&CountedMotion<S>, &Vec<f64>)| {
         let (label, number) =
             (motion.verdict.label(), values.get(field).map(|value| value * fields[field].unit(units)));
-        PointMotion { group: group(&label), share: 1.0, value: Value::of(&label, number) }
+        PointMotion { class: all.class(&label), share: 1.0, value: Value::of(&label, number) }
     };
     let motions: Vec<PointMotion> = found.motions.iter().zip(&found.quantities).map(motion).collect();
     let start = |k: usize| found.motion(k).map(|number| motions[number]).into_iter().collect();
-    let points: Vec<Vec<PointMotion>> = (0..found.cells.len()).map(start).collect();
-    of_points(&Sides::of(&found.plan.axes, units)?, &points, coloured, (fields[field].axis(units), title))
+    all.points = (0..found.cells.len()).map(start).collect();
+    of_points(&Sides::of(&found.plan.axes, units)?, &all, coloured, (fields[field].axis(units), title))
 }
 
 /// The place of a field among those of a plan.

@@ -10,9 +10,12 @@ use crate::math::{Lu, Matrix, Multiplier, dot};
 
 /// The largest number of steps of Newton's method; from a good guess four or five are needed.
 const MAX_STEPS: u32 = 30;
-/// After this number of steps the iteration is ended if the residual exceeds [`HOPELESS`].
+/// After each run of this number of steps the iteration is ended if the residual exceeds [`HOPELESS`], or has not fallen to
+/// [`SLOW`] of what it was before them: even near a double solution it halves in each step. A neutral motion comes close to earlier
+/// states again and again without a cycle, and steps towards none would take most of the time of its verdict.
 const PATIENCE: u32 = 8;
 const HOPELESS: f64 = 1e-2;
+const SLOW: f64 = 0.25;
 /// A residual up to this is accepted; the rounding error is usually 1e-14.
 const CLOSED: f64 = 1e-10;
 /// A multiplier besides that along the motion that is this near to 1 is 1 to rounding: the cycle is one of a family, as those
@@ -107,6 +110,7 @@ fn closed(frame: &MachineFrame<'_>, from: &Place, mut time: f64) -> Option<(Plac
     let mut begin = frame.moved(place, &passage.structure, 0.5 * passage.duration.min(time));
     frame.centre(&mut begin);
     let mut best: Option<(f64, Place, MachineLap)> = None;
+    let mut before = f64::INFINITY;
     for step in 0..MAX_STEPS {
         let lap = MachineLap::fly(frame, &begin, time)?;
         if lap.end.states != begin.states {
@@ -126,6 +130,13 @@ fn closed(frame: &MachineFrame<'_>, from: &Place, mut time: f64) -> Option<(Plac
         }
         if !residual.is_finite() || step >= PATIENCE && residual > HOPELESS {
             return None;
+        }
+        if step.is_multiple_of(PATIENCE) {
+            let least = best.as_ref().map_or(residual, |(least, ..)| *least);
+            if least > CLOSED && least > SLOW * before {
+                return None;
+            }
+            before = least;
         }
         let (change, longer) = newton(frame, (&begin, &end), (derivative?, &holding), sizes)?;
         let next: Vec<f64> = frame.shape.values(&begin).iter().zip(&change).map(|(from, by)| from + by).collect();
