@@ -135,7 +135,7 @@ fn preloaded_chain() -> Machine {
 /// There the multiplier is without limit, and the number turns back.
 #[test]
 fn f42k_preloaded_contacts_that_graze() {
-    let grazing = |appears| BranchEvent::Grazing { stop: 0, appears, turns: true };
+    let grazing = |appears| BranchEvent::Grazing { stop: 0, also: None, appears, turns: true };
     let (fold, flip, end) = (BranchEvent::Fold, BranchEvent::Flip, BranchEvent::EndOfRange);
     let lost = BranchEvent::LossOfContact { stop: 0 };
     let (mass, chain) = (preloaded_mass(), preloaded_chain());
@@ -233,7 +233,7 @@ fn f42n_a_closed_stop_that_opens_for_no_time() {
         let range = (f64::min(from, to), f64::max(from, to));
         let points = traced((&machine, "frequency"), &cycle, range, direction);
         let events = events(&points);
-        let grazing = BranchEvent::Grazing { stop: 0, appears, turns: false };
+        let grazing = BranchEvent::Grazing { stop: 0, also: None, appears, turns: false };
         assert!(
             matches!(events.as_slice(), [(event, _), (BranchEvent::EndOfRange, _)] if *event == grazing),
             "{events:?}"
