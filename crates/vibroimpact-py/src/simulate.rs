@@ -61,7 +61,9 @@ pub(crate) fn waveform<'py>(
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss)] // 1e7
         let times: Vec<f64> = (0..=(until / step) as u64).map(|k| k as f64 * step).collect();
-        let at = |(time, state): (&f64, Option<Start>)| state.map(|Start { x, v, .. }| Sample { time: *time, x, v });
+        let at = |(time, state): (&f64, Option<Start>)| {
+            state.map(|Start { x, v, phase }| Sample { time: *time, x, v, phase })
+        };
         Ok(times.iter().zip(states_at(&osc, start, &times)).filter_map(at).collect())
     })?;
     Ok((

@@ -19,6 +19,9 @@ async function saved(page, format) {
  */
 const FEW = "20";
 
+/** A window with few pixels, whose points the server computes before the command has the range of the colours. */
+const TINY = { viewport: { width: 340, height: 290 } };
+
 /** Chooses a number of points for the export, offered or not. */
 async function choosePoints(page, points) {
   await page.locator("#export-points").evaluate((choice, points) => {
@@ -61,7 +64,7 @@ export async function f10_panels_export_what_they_show({ open }) {
   const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75", { acceptDownloads: true });
   await until("the panels are drawn", async () => (await pictures(page)) >= 4);
   for (const [panel, view, python, head] of [
-    ["phase portrait", "phase", "motion.waveform()", "time,x,v"],
+    ["phase portrait", "phase", "motion.waveform()", "time,x,v,phase"],
     ["multipliers", "multipliers", "motion.multipliers", "re,im"],
     ["impact map and stroboscopic section", "sections", "vi.lyapunov(osc, x=0, points=2000).plot_sections()", "section,stop,phase,speed,x,v"],
   ]) {
@@ -126,7 +129,7 @@ export async function figures_of_quantities_and_machines_are_those_of_their_comm
       [`#machine=0.8,12000,30&x=beta&point=1&beta=0.77&gap=0.75&view=0.74,0.82,0.6,1&impacts=200&layers=${regions}paper,amplitude,stripes`, FEW,
         new RegExp(`--mass-kg 0\\.8 .*--layers ${regions}amplitude,paper,stripes --mark \\S+,0\\.001875 --plot`)],
     ]) {
-      const { page } = await open(hash, { acceptDownloads: true, viewport: { width: 340, height: 290 } });
+      const { page } = await open(hash, { ...TINY, acceptDownloads: true });
       await page.waitForSelector("#plane[data-picture]");
       if (hash.includes("colour")) await page.waitForSelector("#legend .bar-colours[data-range]");
       // the range of the colours in the command is that of the tiles that are there, so it changes until all are
@@ -158,7 +161,7 @@ export async function every_export_is_that_of_its_command({ open, address }) {
       ["#machine=0.8,12000,30&x=beta&point=1&beta=0.77&gap=0.75&damping=0.02&start=0.1,0.2,0.3&view=0.7,1,0.4,2.2&line=0.7,1,0.8,1.2&layers=stripes&impacts=200&colour=displacement_max",
         "--mass-kg 0.8", /_(hz|m|s|m_per_s)\b|^re,im$|^section,/],
     ]) {
-      const { page } = await open(hash, { ...SMALL, acceptDownloads: true });
+      const { page } = await open(hash, { ...TINY, acceptDownloads: true });
       await drawn(page, hash.includes("colour"));
       await page.waitForSelector("#point .note:not(:empty)");
       if (hash.includes("colour")) await page.waitForSelector("[data-name=basin] .bar-colours[data-range]");

@@ -94,7 +94,7 @@ async fn tables_commands_and_layers() {
     let text = String::from_utf8(body).unwrap();
     assert!(text.starts_with("x,v,label\n-2,-2,") && text.lines().count() == 121, "{text}");
     let steady = String::from_utf8(ask("/api/table", SETTLE).await.2).unwrap();
-    assert!(steady.starts_with("time,x,v\n0,0.75,") && steady.lines().count() > 500, "{steady}");
+    assert!(steady.starts_with("time,x,v,phase\n0,0.75,") && steady.lines().count() > 500, "{steady}");
     let motions = String::from_utf8(ask("/api/table", r#""attractors":{"starts":200,"seed":1}"#).await.2).unwrap();
     assert!(motions.contains("\n2/1,0.64,128,0.4437") && motions.lines().count() == 3, "{motions}");
     let orbits = String::from_utf8(ask("/api/table", r#""orbit":{"label":"1/1"}"#).await.2).unwrap();
@@ -143,8 +143,8 @@ async fn fz3_every_refusal_is_an_object() {
 async fn f10_a_view_has_its_own_table_and_command() {
     let settle = "vibro settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5";
     for (view, head, show, python) in [
-        ("waveform", "time,x,v", "", "motion.plot()"),
-        ("phase", "time,x,v", " --show phase", "motion.waveform()"),
+        ("waveform", "time,x,v,phase", "", "motion.plot()"),
+        ("phase", "time,x,v,phase", " --show phase", "motion.waveform()"),
         ("multipliers", "re,im", " --show multipliers", "motion.multipliers"),
         (
             "sections",

@@ -66,7 +66,7 @@ fn f10_phases_that_are_no_angles_are_refused() {
 #[test]
 fn f10b_a_dash_is_stdout() {
     let (code, out, _) = ran(&format!("simulate {S} --impacts 3 --csv -"));
-    assert!(code == Some(0) && out.starts_with("time,x,v\n0,0,0\n") && !out.contains("end "), "{out}");
+    assert!(code == Some(0) && out.starts_with("time,x,v,phase\n0,0,0,0\n") && !out.contains("end "), "{out}");
     refused(&format!("simulate {S} --csv - --json"), "both want stdout");
     refused(&format!("simulate {S} --plot -"), "a figure cannot go to stdout");
     for name in ["basin --x -1:0.5:2 --v 0:1:2", "attractors --starts 2"] {

@@ -62,7 +62,7 @@ fn existing_files_stay_unless_forced() {
     }
     let forced = format!("simulate {S} --csv keep.csv --force");
     printed_in(&folder, &forced);
-    assert!(fs::read_to_string(&file).unwrap().starts_with("time,x,v\n0,0,0\n"));
+    assert!(fs::read_to_string(&file).unwrap().starts_with("time,x,v,phase\n0,0,0,0\n"));
 }
 
 #[test]

@@ -83,10 +83,87 @@ fn a14_tables_have_states() {
     let line = format!("simulate --machine {} --impacts 20 --csv -", machine.display());
     let table = printed(&line);
     assert!(
-        table.lines().next().unwrap().ends_with("force.guide,surface.pad,state.pad,state.wall,state.guide"),
+        table.lines().next().unwrap().ends_with("force.guide,surface.pad,state.pad,state.wall,state.guide,phase,exact"),
         "{table}"
     );
-    assert!(table.contains(",closed,open,") && table.contains(",forward\n"), "{table}");
+    assert!(table.contains(",closed,open,") && table.contains(",forward,"), "{table}");
+}
+
+/// The rows of a table that are states after events, as starts, with their times.
+fn states_of(table: &str, coordinates: &[&str], contacts: &[&str]) -> Vec<(f64, Value)> {
+    let mut lines = table.lines();
+    let head: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let column = |name: String| head.iter().position(|own| *own == name);
+    // the last cell is in quotes, in which quotes are doubled
+    let rows = lines.filter_map(|row| row.strip_suffix('"')?.split_once(",\""));
+    rows.map(|(row, digits)| {
+        let row: Vec<&str> = row.split(',').collect();
+        let number = |name: String| row[column(name).unwrap()].parse::<f64>().unwrap();
+        let vector = |what: &str| coordinates.iter().map(|name| number(format!("{what}.{name}"))).collect::<Vec<_>>();
+        let contact = |name: &&str| {
+            let mut contact = serde_json::json!({ "state": row[column(format!("state.{name}")).unwrap()] });
+            if let Some(at) = column(format!("surface.{name}"))
+                && row[at] != "0"
+            {
+                contact["surface"] = row[at].parse::<f64>().unwrap().into();
+            }
+            ((*name).to_owned(), contact)
+        };
+        let contacts: serde_json::Map<String, Value> = contacts.iter().map(contact).collect();
+        let exact: Value = serde_json::from_str(&digits.replace("\"\"", "\"")).unwrap();
+        let (q, qdot, phase) = (vector("q"), vector("qdot"), number("phase".to_owned()));
+        (
+            number("time".to_owned()),
+            serde_json::json!({ "q": q, "qdot": qdot, "phase": phase, "contacts": contacts, "exact": exact }),
+        )
+    })
+    .collect()
+}
+
+/// The rows of a table after events are states from which the motion goes on to the last bit.
+#[test]
+fn a14_motions_go_on_from_rows_of_tables() {
+    let folder = tempfile::tempdir().unwrap();
+    let (machine, run) = (folder.path().join("pads.toml"), folder.path().join("row.json"));
+    fs::write(&machine, PADS).unwrap();
+    let simulate = format!("simulate --machine {}", machine.display());
+    let found = json(&format!("{simulate} --impacts 30"));
+    let events: Vec<&Value> =
+        found["events"].as_array().unwrap().iter().filter(|event| event["kind"] != "graze").collect();
+    let table = printed(&format!("{simulate} --impacts 30 --csv -"));
+    let states = states_of(&table, &["mass", "other"], &["pad", "wall", "guide"]);
+    assert!(states.len() > 20, "{table}");
+    for (time, state) in &states[..20] {
+        let last = events.iter().rposition(|event| event["time"].as_f64().unwrap() <= *time).unwrap();
+        for name in ["q", "qdot", "phase", "contacts", "exact"] {
+            assert_eq!(state[name], events[last][name], "{name} at {time}");
+        }
+        fs::write(&run, serde_json::json!({ "start": state }).to_string()).unwrap();
+        let again = json(&format!("{simulate} --impacts 5 --start {}#/start", run.display()));
+        let again: Vec<&Value> =
+            again["events"].as_array().unwrap().iter().filter(|event| event["kind"] != "graze").collect();
+        for (again, next) in again.iter().zip(&events[last + 1..]) {
+            for name in ["kind", "stop", "q", "qdot", "phase", "speed"] {
+                assert_eq!(again[name], next[name], "{name} after {time}");
+            }
+        }
+    }
+    // the same of an oscillator, whose state is its place, velocity and phase
+    let line = "simulate --inverse-beta 1.3 --gap 0.2 --restitution 0.6";
+    let found = json(&format!("{line} --impacts 20"));
+    let table = printed(&format!("{line} --impacts 20 --csv -"));
+    let rows: Vec<Vec<&str>> = table.lines().skip(1).map(|row| row.split(',').collect()).collect();
+    for event in found["events"].as_array().unwrap().iter().take(15).filter(|event| event["kind"] == "impact") {
+        let time = event["time"].as_f64().unwrap();
+        let row = rows.iter().rfind(|row| row[0].parse::<f64>().unwrap() <= time).unwrap();
+        let again = json(&format!("{line} --x {} --v {} --phase {} --impacts 3", row[1], row[2], row[3]));
+        let next = found["events"].as_array().unwrap().iter().skip_while(|next| next["time"].as_f64().unwrap() <= time);
+        for (again, next) in again["events"].as_array().unwrap().iter().zip(next) {
+            for name in ["kind", "q", "qdot", "phase", "speed"] {
+                assert_eq!(again[name], next[name], "{name} after {time}");
+            }
+        }
+    }
 }
 
 /// A fast oscillation beside a slow one: the next impact is farther away than the search goes. What is known is printed, and the

@@ -235,7 +235,8 @@ fn contacts(machine: &Machine, start: &events::Start) -> Map<String, Value> {
     start.contacts.iter().map(contact).collect()
 }
 
-fn exact(start: &events::Start) -> Map<String, Value> {
+/// The digits that the other numbers of a state leave out, by name.
+pub(crate) fn exact(start: &events::Start) -> Map<String, Value> {
     start.exact.iter().map(|(name, values)| (name.clone(), values.clone().into())).collect()
 }
 

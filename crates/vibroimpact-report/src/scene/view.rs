@@ -136,7 +136,7 @@ mod tests {
             assert!(shown.iter().enumerate().all(|(j, other)| j == k || other.0 != *svg), "{k}");
         }
         let heads = shown.each_ref().map(|(_, table)| table.lines().next().unwrap());
-        assert_eq!(heads, ["time,x,v", "time,x,v", "re,im", "section,stop,phase,speed,x,v"]);
+        assert_eq!(heads, ["time,x,v,phase", "time,x,v,phase", "re,im", "section,stop,phase,speed,x,v"]);
         assert_eq!(shown[2].1.lines().count(), 3, "{}", shown[2].1);
         assert_eq!(shown[3].1.lines().count(), 1 + 2 * 2000);
     }

@@ -2,11 +2,13 @@
 
 use super::Table;
 use crate::figure;
+use crate::json;
 use crate::number::Number;
 use crate::{ReportError, Units};
+use serde_json::Value;
 use vibroimpact::events;
-use vibroimpact::events::{Limits, Samples};
-use vibroimpact::machine::{Machine, Opening, StopLaw};
+use vibroimpact::events::{EventKind, Limits, Motion, Samples};
+use vibroimpact::machine::{Machine, MachineError, Opening, StopLaw};
 use vibroimpact::motion::sample;
 use vibroimpact::verdict::Settled;
 use vibroimpact::{Oscillator, QuantityKind, Start};
@@ -39,15 +41,16 @@ pub fn table(
     let wave = sample(osc, start, until, step, 3 * MOST_POINTS as usize);
     let rows = wave.into_iter().map(move |point| {
         format!(
-            "{},{},{}",
+            "{},{},{},{}",
             Number(point.time * units.time()),
             Number(point.x * units.length()),
-            Number(point.v * units.velocity())
+            Number(point.v * units.velocity()),
+            Number(point.phase)
         )
     });
     let time = if units.si { "time_s" } else { "time" };
     let (x, v) = (units.column("x", QuantityKind::Length), units.column("v", QuantityKind::Velocity));
-    Ok(Table::new(format!("{time},{x},{v}"), rows))
+    Ok(Table::new(format!("{time},{x},{v},phase"), rows))
 }
 
 /// The table of `vibro settle`: the settled motion, from its last event before it was recognised, for the duration
@@ -70,21 +73,33 @@ pub fn samples<'a>(
     (until, step): (f64, f64),
 ) -> Result<Samples<'a>, ReportError> {
     few_enough(until, step)?;
-    let limits = Limits::default();
-    let limits = Limits { time: limits.time.max(until), ..limits };
     let step = if step > 0.0 { step } else { 1.0 };
-    Samples::new(machine, start, limits, (until, step))
-        .map_err(|error| ReportError::Plan(PlanError::Machine(error.into())))
+    Samples::new(machine, start, limits((until, step)), (until, step)).map_err(refused)
+}
+
+/// The limits of a motion that is shown until a time.
+fn limits((until, _): (f64, f64)) -> Limits {
+    let limits = Limits::default();
+    Limits { time: limits.time.max(until), ..limits }
+}
+
+fn refused(error: MachineError) -> ReportError {
+    ReportError::Plan(PlanError::Machine(error.into()))
 }
 
 /// The table of `vibro simulate --machine`: time, coordinates, velocities, gaps of the stops, forces of stops and joints, how far
-/// the surfaces of damped stops stand back, and what stops and joints do.
+/// the surfaces of damped stops stand back, what stops and joints do, and the phase of the forcing. Where a row is the state after an
+/// event, the last column has the digits that the others leave out, as an object in JSON.
 ///
 /// # Errors
 /// As [`samples`].
 pub fn of_machine<'a>(machine: &'a Machine, start: &events::Start, span: (f64, f64)) -> Result<Table<'a>, ReportError> {
-    let surfaces = recovering(machine);
-    let rows = samples(machine, start, span)?.map(move |sample| {
+    let (surfaces, forced) = (recovering(machine), machine.parts().frequency.is_some());
+    let samples = samples(machine, start, span)?;
+    let motion = Motion::with_states(machine, start, limits(span)).map_err(refused)?;
+    let mut states = motion.filter(|event| event.kind != EventKind::Graze).peekable();
+    let mut whole = (!start.exact.is_empty()).then(|| Box::new(start.clone()));
+    let rows = samples.map(move |sample| {
         let mut row = Number(sample.time).to_string();
         for value in sample.q.iter().chain(&sample.qdot).chain(&sample.gaps).chain(&sample.forces) {
             row.push_str(&format!(",{}", Number(*value)));
@@ -94,6 +109,19 @@ pub fn of_machine<'a>(machine: &'a Machine, start: &events::Start, span: (f64, f
         }
         for state in &sample.states {
             row.push_str(&format!(",{}", contact_word(*state)));
+        }
+        if forced {
+            row.push_str(&format!(",{}", Number(sample.phase)));
+        }
+        while let Some(event) = states.next_if(|event| event.time <= sample.time) {
+            whole = event.state;
+        }
+        row.push(',');
+        let here = sample.start();
+        if let Some(state) = whole.take_if(|whole| events::Start { exact: Vec::new(), ..(**whole).clone() } == here) {
+            // a cell in quotes, in which quotes are doubled
+            let digits = Value::from(json::event::exact(&state)).to_string();
+            row.push_str(&format!("\"{}\"", digits.replace('"', "\"\"")));
         }
         row
     });
@@ -110,9 +138,10 @@ pub fn columns_of_machine(machine: &Machine) -> Vec<String> {
     let surfaces = recovering(machine);
     let surfaces = surfaces.iter().map(|stop| format!("surface.{}", machine.name_of(*stop)));
     let states = (0..contacts).map(|place| format!("state.{}", machine.name_of(place)));
+    let phase = machine.parts().frequency.map(|_| "phase".to_owned());
     let time = core::iter::once("time".to_owned());
     let motion = time.chain(coordinates("q")).chain(coordinates("qdot")).chain(gaps).chain(forces);
-    motion.chain(surfaces).chain(states).collect()
+    motion.chain(surfaces).chain(states).chain(phase).chain(["exact".to_owned()]).collect()
 }
 
 /// The stops whose surfaces can stand back.

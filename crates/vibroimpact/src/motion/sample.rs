@@ -1,7 +1,7 @@
 //! Points of the waveform, for display. The events of a motion do not depend on them.
 
 use super::{Leg, Motion};
-use crate::system::{Oscillator, Start};
+use crate::system::{Oscillator, Start, phase};
 
 /// A point of the waveform.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,6 +12,8 @@ pub struct Sample {
     pub x: f64,
     /// Velocity.
     pub v: f64,
+    /// Phase of the force, in $`[0, 2\pi)`$.
+    pub phase: f64,
 }
 
 /// The motion from `start` up to the time `until`, at times no further apart than `step`, with a point on each side of
@@ -51,7 +53,7 @@ fn draw(osc: &Oscillator, leg: &Leg, until: f64, step: f64, cap: usize, points: 
         let (x, v) = leg.state(osc, s);
         // the last point is at the requested time exactly
         let time = if k == pieces && length < leg.duration { until } else { leg.begin + s };
-        points.push(Sample { time, x, v });
+        points.push(Sample { time, x, v, phase: phase::advance(leg.phase, osc.beta(), s) });
         k += 1.0;
     }
 }
