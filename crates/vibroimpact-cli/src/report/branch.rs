@@ -161,12 +161,14 @@ pub(crate) fn because(event: &Event<'_>) -> String {
 fn of_machine(event: &machine::BranchEvent, machine: &Machine) -> String {
     let name = |place: usize| machine.name_of(place);
     match *event {
-        machine::BranchEvent::Grazing { stop, appears, turns } => format!(
-            "an impact on {} {}; the parameter {}",
-            name(stop),
-            if appears { "appears" } else { "disappears" },
-            if turns { "turns" } else { "goes on" }
-        ),
+        machine::BranchEvent::Grazing { stop, also, appears, turns } => {
+            let verb = if appears { "appear" } else { "disappear" };
+            let way = if turns { "turns" } else { "goes on" };
+            match also {
+                Some(other) => format!("impacts on {} and {} {verb}; the parameter {way}", name(stop), name(other)),
+                None => format!("an impact on {} {verb}s; the parameter {way}", name(stop)),
+            }
+        }
         machine::BranchEvent::LossOfContact { stop } => format!("{} is no longer reached", name(stop)),
         machine::BranchEvent::RestForEver { stop } => format!("no force pulls it off {} any more", name(stop)),
         machine::BranchEvent::Corner { first, second } if first == second => {

@@ -151,7 +151,7 @@ mod tests {
             machine::BranchEvent::Fold,
             machine::BranchEvent::Flip,
             machine::BranchEvent::BranchPoint,
-            machine::BranchEvent::Grazing { stop, appears: true, turns: false },
+            machine::BranchEvent::Grazing { stop, also: None, appears: true, turns: false },
             machine::BranchEvent::LossOfContact { stop },
             machine::BranchEvent::RestForEver { stop },
         ] {

@@ -183,18 +183,19 @@ pub struct EventFields<'a> {
     /// The phase of this contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     phase: Option<f64>,
-    /// For two identical stops, the simultaneous contact with the other one.
+    /// For two equal stops, the contact with the other one that appears or disappears at the same value.
     #[serde(skip_serializing_if = "Option::is_none")]
-    also: Option<TouchObject>,
+    also: Option<TouchObject<'a>>,
 }
 
 /// A contact that is simultaneous with that of the event.
 #[derive(JsonSchema, Serialize)]
-struct TouchObject {
+struct TouchObject<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     impact: Option<usize>,
-    stop: &'static str,
-    phase: f64,
+    stop: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    phase: Option<f64>,
 }
 
 impl<'a> BranchAnswer<'a> {
@@ -459,10 +460,11 @@ impl<'a> EventFields<'a> {
         (before, after): (Label, Option<String>),
         machine: &'a Machine,
     ) -> Self {
-        let (appears, turns) = match event {
-            machine::BranchEvent::Grazing { appears, turns, .. } => (Some(appears), Some(turns)),
-            _ => (None, None),
+        let (appears, turns, also) = match event {
+            machine::BranchEvent::Grazing { appears, turns, also, .. } => (Some(appears), Some(turns), also),
+            _ => (None, None, None),
         };
+        let touch = |place: usize| TouchObject { impact: None, stop: machine.name_of(place), phase: None };
         Self {
             ends: event.ends(),
             before: before.to_string(),
@@ -470,6 +472,7 @@ impl<'a> EventFields<'a> {
             stop: event.place().map(|place| machine.name_of(place)),
             appears,
             turns,
+            also: also.map(touch),
             ..Self::default()
         }
     }
@@ -487,7 +490,7 @@ impl EventFields<'static> {
             turns,
             impact,
             phase,
-            also: also.map(|(impact, at, phase)| TouchObject { impact, stop: side(at), phase }),
+            also: also.map(|(impact, at, phase)| TouchObject { impact, stop: side(at), phase: Some(phase) }),
         }
     }
 }

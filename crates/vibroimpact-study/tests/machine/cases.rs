@@ -382,7 +382,7 @@ fn c24_n() {
     let options = BranchOptions::default();
     let branch = Branch::new((&family, value), &cycle, &range, Direction::Up, options).unwrap();
     let events: Vec<_> = branch.filter_map(|point| Some((point.event?, point.value))).collect();
-    let grazing = BranchEvent::Grazing { stop: 0, appears: false, turns: true };
+    let grazing = BranchEvent::Grazing { stop: 0, also: None, appears: false, turns: true };
     for (event, value) in [
         (BranchEvent::Fold, 0.278_507_288_818_434_6),
         (grazing, 0.258_480_239_026_615_1),

@@ -220,8 +220,9 @@ fn converted(event: branches::BranchEvent, reduction: &Reduction) -> Option<Bran
         branches::BranchEvent::BranchPoint => BranchEvent::BranchPoint,
         branches::BranchEvent::Flip => BranchEvent::Flip,
         branches::BranchEvent::Halving => BranchEvent::Halving,
-        branches::BranchEvent::Grazing { change, side, turns, .. } => {
-            BranchEvent::Grazing { stop: reduction.stop(side)?, appears: change == Change::Appears, turns }
+        branches::BranchEvent::Grazing { change, side, turns, also, .. } => {
+            let also = also.and_then(|touch| reduction.stop(touch.side));
+            BranchEvent::Grazing { stop: reduction.stop(side)?, also, appears: change == Change::Appears, turns }
         }
         branches::BranchEvent::LossOfContact { side, .. } => BranchEvent::LossOfContact { stop: reduction.stop(side)? },
         branches::BranchEvent::Closed => BranchEvent::Closed,

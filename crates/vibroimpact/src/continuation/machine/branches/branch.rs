@@ -63,7 +63,11 @@ impl Path for EventPath {
         if off < NEARBY {
             cycle.rounding = cycle.rounding.max(off);
         }
-        let ring = event.and_then(|_| Some(branch.tracer.problem.equations.split(&at.w)?.1));
+        let (machine, ring) = event.and_then(|_| branch.tracer.problem.equations.split(&at.w)).unzip();
+        let event = event.map(|event| match (&machine, &ring) {
+            (Some(machine), Some(ring)) => event.on(machine, ring, cycle.sizes.1),
+            _ => event,
+        });
         Some(SolutionPoint { value: last(&at.w), cycle, event, ring })
     }
 

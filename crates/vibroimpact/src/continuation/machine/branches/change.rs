@@ -25,8 +25,8 @@ impl Difference {
     /// The event of a branch.
     pub(super) const fn event(&self, turns: bool) -> BranchEvent {
         match *self {
-            Self::Appears { stop, .. } => BranchEvent::Grazing { stop, appears: true, turns },
-            Self::Disappears { stop, .. } => BranchEvent::Grazing { stop, appears: false, turns },
+            Self::Appears { stop, .. } => BranchEvent::Grazing { stop, also: None, appears: true, turns },
+            Self::Disappears { stop, .. } => BranchEvent::Grazing { stop, also: None, appears: false, turns },
             Self::Corner { first, second } => BranchEvent::Corner { first, second },
             Self::Rest { place, joint: false, begins } => BranchEvent::Sticking { stop: place, begins },
             Self::Rest { place, begins, .. } => BranchEvent::Holding { joint: place, begins },

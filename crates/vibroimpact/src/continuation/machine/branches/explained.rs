@@ -119,7 +119,15 @@ pub(super) fn explained(
     };
     // where nothing differs but the number of impacts of a chatter, what was found is all that is known
     if explains || old == new && !changes {
-        return Some(event);
+        return Some(match event {
+            BranchEvent::Grazing { stop, appears, turns, .. } => {
+                let change = |place: usize| old[place].closings.cmp(&new[place].closings);
+                let as_well =
+                    |place: &usize| *place != stop && change(*place).is_ne() && change(*place) == change(stop);
+                BranchEvent::Grazing { stop, also: (0..stops).find(as_well), appears, turns }
+            }
+            event => event,
+        });
     }
     let turned = differ(|tally| tally.turns);
     let more = |place: usize| if old[place].turns > new[place].turns { before } else { beyond };
@@ -144,7 +152,7 @@ pub(super) fn explained(
         }
         (None, Some(stop)) => {
             let appears = old[stop].closings < new[stop].closings;
-            BranchEvent::Grazing { stop, appears, turns }
+            BranchEvent::Grazing { stop, also: None, appears, turns }
         }
         _ => corner(),
     })

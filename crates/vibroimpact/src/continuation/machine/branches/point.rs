@@ -1,6 +1,8 @@
 //! A point of a branch of a machine, and the events that are possible there.
 
+use crate::machine::{Machine, StopLaw};
 use crate::orbit::{MachineRing, machine::Cycle};
+use crate::regime::{GuardKind, Normal};
 
 /// A point of a branch.
 #[derive(Clone, Debug)]
@@ -35,6 +37,9 @@ pub enum BranchEvent {
     Grazing {
         /// The stop.
         stop: usize,
+        /// Another stop of which the same is true here, to rounding, as of a symmetric machine. Which of both is named first is
+        /// decided by rounding; closings that appear are known where the branch goes on.
+        also: Option<usize>,
         /// Whether a closing appears or disappears beyond.
         appears: bool,
         /// Whether the number turns back here.
@@ -94,7 +99,28 @@ pub enum BranchEvent {
     NoConvergence,
 }
 
+/// A closing has no speed if it has less than this part of the largest velocity.
+const WITHOUT_SPEED: f64 = 1e-6;
+
 impl BranchEvent {
+    /// The same on the solution at the event, with the other stop of which a closing has no speed where one disappears; `speed` is
+    /// the largest velocity.
+    pub(super) fn on(self, machine: &Machine, ring: &MachineRing, speed: f64) -> Self {
+        let Self::Grazing { stop, also: None, appears: false, turns } = self else { return self };
+        let normal = Normal::new(machine);
+        let slow = |k: usize| {
+            let GuardKind::Gap(other) = ring.events[k].guard else { return None };
+            let share = match machine.stops()[other].law {
+                StopLaw::Rigid { restitution } => restitution,
+                StopLaw::Compliant { .. } => 1.0,
+            };
+            let place = ring.place(k);
+            let after = place.gap(&normal, &place.turns(&normal), other).1.abs();
+            (other != stop && share > 0.0 && after <= share * WITHOUT_SPEED * speed).then_some(other)
+        };
+        Self::Grazing { stop, also: (0..ring.len()).find_map(slow), appears: false, turns }
+    }
+
     /// Its name in JSON and tables.
     #[must_use]
     pub const fn name(&self) -> &'static str {
