@@ -29,7 +29,7 @@ use vibroimpact_study::Task;
         vibro settle --mass-kg 2 --damping-ns-per-m 1 --stiffness-n-per-m 800 \\\n    \
         --force-n 4 --frequency-hz 4 --gap-m 0.01 --restitution 0.5 --units si",
     mut_arg("csv", |arg| arg.help(
-        "Write the steady motion to this file, one row a point, columns t, x, v unless --show says otherwise; of \
+        "Write the steady motion to this file, one row a point, columns time, x, v, phase unless --show says otherwise; of \
         a machine those of `vibro simulate`; - for stdout"
     )),
     mut_arg("plot", |arg| arg.help("Draw the steady motion into this file, .svg, .png or .pdf"))

@@ -25,8 +25,9 @@ use vibroimpact_study::SimulatePlan;
         vibro simulate --machine soft-stop --time 20\n  \
         vibro simulate --machine two-mass-hammer --periods 10 --plot hammer.svg",
     mut_arg("csv", |arg| arg.help(
-        "Write the waveform, columns t, x, v, to this file; - for stdout. Of a machine: time, coordinates, \
-        velocities, gaps, forces, surfaces of damped stops, and what stops and joints do"
+        "Write the waveform, columns time, x, v, phase, to this file; - for stdout. Of a machine: time, coordinates, \
+        velocities, gaps, forces, surfaces of damped stops, what stops and joints do, phase, and after an event the \
+        digits that these leave out"
     )),
     mut_arg("plot", |arg| arg.help("Draw the waveform into this file, .svg, .png or .pdf"))
 )]

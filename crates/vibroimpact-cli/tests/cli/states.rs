@@ -92,25 +92,25 @@ fn a14_tables_have_states() {
 /// The rows of a table that are states after events, as starts, with their times.
 fn states_of(table: &str, coordinates: &[&str], contacts: &[&str]) -> Vec<(f64, Value)> {
     let mut lines = table.lines();
-    let head: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let head: Vec<&str> = lines.next().expect("a head").split(',').collect();
     let column = |name: String| head.iter().position(|own| *own == name);
     // the last cell is in quotes, in which quotes are doubled
     let rows = lines.filter_map(|row| row.strip_suffix('"')?.split_once(",\""));
     rows.map(|(row, digits)| {
         let row: Vec<&str> = row.split(',').collect();
-        let number = |name: String| row[column(name).unwrap()].parse::<f64>().unwrap();
+        let number = |name: String| row[column(name).expect("a column")].parse::<f64>().expect("a number");
         let vector = |what: &str| coordinates.iter().map(|name| number(format!("{what}.{name}"))).collect::<Vec<_>>();
         let contact = |name: &&str| {
-            let mut contact = serde_json::json!({ "state": row[column(format!("state.{name}")).unwrap()] });
+            let mut contact = serde_json::json!({ "state": row[column(format!("state.{name}")).expect("a column")] });
             if let Some(at) = column(format!("surface.{name}"))
                 && row[at] != "0"
             {
-                contact["surface"] = row[at].parse::<f64>().unwrap().into();
+                contact["surface"] = row[at].parse::<f64>().expect("a number").into();
             }
             ((*name).to_owned(), contact)
         };
         let contacts: serde_json::Map<String, Value> = contacts.iter().map(contact).collect();
-        let exact: Value = serde_json::from_str(&digits.replace("\"\"", "\"")).unwrap();
+        let exact: Value = serde_json::from_str(&digits.replace("\"\"", "\"")).expect("an object");
         let (q, qdot, phase) = (vector("q"), vector("qdot"), number("phase".to_owned()));
         (
             number("time".to_owned()),

@@ -2,7 +2,6 @@
 
 import json
 import re
-import textwrap
 from collections.abc import Callable, Iterable
 from functools import lru_cache
 from typing import Any
@@ -39,8 +38,8 @@ def completed(text: str, section: str, names: Iterable[str], told: Callable[[str
     for name in names:
         if name not in entries:
             kind, words = told(name)
-            filled = textwrap.fill(" ".join(words.split()), 128, initial_indent=" " * 8, subsequent_indent=" " * 8)
-            entries[name] = f"    {name} : {kind}\n{filled}\n"
+            lines = re.sub(r"(.{1,120})(?:\s|$)", r"        \1\n", " ".join(words.split()))
+            entries[name] = f"    {name} : {kind}\n{lines}"
     whole = "".join(dict.fromkeys(entries[name] for name in dict.fromkeys((*names, *entries))))
     return f"{first.rstrip()}\n\n{rule}{whole}" + (f"\n{rest}" if rest.strip() else "    ")
 

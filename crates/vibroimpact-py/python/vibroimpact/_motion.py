@@ -563,18 +563,10 @@ class Orbit(Motion, schema="orbit OrbitObject"):
     def _remark(self) -> str:
         return "" if self.admissible else ", inadmissible"
 
-    def waveform(self, step: float | None = None, *, periods: float | None = None, events: bool = True) -> Waveform:
-        """As for a Motion. Raises QuestionError for an inadmissible solution."""
-        self._check()
-        return Motion.waveform(self, step, periods=periods, events=events)
-
-    def _some_periods(self) -> Simulation:
-        self._check()
-        return Motion._some_periods(self)
-
-    def _check(self) -> None:
+    def _begin(self, lacking: str) -> tuple[Any, dict[str, Any]]:
         if not self.admissible:
             raise QuestionError(f"this solution {self.label} is inadmissible: it passes through a stop on its way")
+        return super()._begin(lacking)
 
 
 class Orbits(Listed[Orbit], schema="orbit"):

@@ -29,6 +29,12 @@ WORDS = {
     "q, qdot, phase": (
         "array, array, float", "Start of a machine: coordinates, velocities and phase. Default: those of its `start`, or 0.",
     ),
+    "vary": (
+        "str",
+        'The number that varies: "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution"; of an '
+        'oscillator from `Oscillator.from_units` also one of the body, as "frequency_hz", "force_n", "mass_kg" or "gap_m", over which '
+        'quantities are in SI units; of a machine the path of a number, as "frequency" or "stop.wall.gap".',
+    ),
     "over": ("str or array", 'Its values: a range ("0.5:1.5:201" has 201 values), or a list or an array of values.'),
     "store": ("path", "The store for the results; tiles that it already contains are not computed again."),
     "client": ("distributed.Client", "A Dask client, whose workers fill the store."),

@@ -118,9 +118,6 @@ def branch(system, vary, to, *, label=None, also=None, orbit=None, follow=0, poi
     ----------
     system : Oscillator or Machine
         The system at which the branch begins.
-    vary : str
-        What varies: "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution" of an oscillator,
-        with physical units also "mass_kg" and others; of a machine the path of a number, as "frequency" or "stop.wall.gap".
     to : float or (float, float)
         The other end of its range; or both ends, for a branch that is followed both ways from `system`.
     also : dict
@@ -228,12 +225,6 @@ def response(system, vary, over, *, quantity=None, impacts=None):
     ----------
     system : Oscillator or Machine
         The system; its value of the number that varies is ignored.
-    vary : str
-        "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution"; for an oscillator
-        from `Oscillator.from_units` also a number of the body, such as "frequency_hz", "force_n", "mass_kg" or "gap_m", over which
-        the quantities are in SI units; of a machine the path of a number.
-    over : str or array
-        Its values: a range ("0.5:1.5:201" has 201 values) or an array.
     quantity : str
         The quantity that is drawn; all are computed. `Motion.quantities` has the names. Default: "displacement_amplitude", of a
         machine that of its first coordinate.
@@ -430,9 +421,6 @@ def orbit_diagram(
     system : Oscillator or Machine
         The system; its value of the parameter that varies is ignored. Physical units as for `basin`. A sweep of a machine begins
         at `machine.start`.
-    vary : str
-        "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution"; for a
-        machine the path of a number.
     over : str or array
         Its values: a range ("0:3:601" has 601 values), or a list or an array of rising or falling values. An array that is evenly
         spaced to rounding is the range.
