@@ -5,17 +5,17 @@ use crate::door::{self, Watch};
 use crate::error::Trouble;
 use crate::events::{EventFields, Events, code};
 use crate::section::{Section, States, columns};
-use crate::simulate::checked_step;
-use crate::simulate::{Lengths, lengths};
+use crate::simulate::{Lengths, checked_step, lengths};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
-use vibroimpact::events::{self, Event, Limits, Sample, Samples};
+use vibroimpact::events::{self, Event, Sample, Samples};
 use vibroimpact::machine::Machine;
 use vibroimpact::regime::ContactState;
 use vibroimpact_report::json::event::of_machine;
 use vibroimpact_study::machine::{CATALOGUE, MachineFileError, MachineProblem, MachineSource, StartText};
 use vibroimpact_study::{
-    Control, Plan, PlanError, PlanResults, Results, Simulated, System, Task, events_with_states, run, tiles,
+    Control, Plan, PlanError, PlanResults, Results, Simulated, System, Task, events_with_states, motion_limits, run,
+    tiles,
 };
 
 /// A machine file that describes a machine.
@@ -330,10 +330,8 @@ pub(crate) fn machine_waveform<'py>(
     let (n, stops, joints) = (machine.n(), machine.stops().len(), machine.joints().len());
     let start = start(file, from)?;
     let wave: Vec<Sample> = door::run(py, Watch::alone("drawing a waveform"), move |control| {
-        let limits = Limits::default();
-        let limits = Limits { time: limits.time.max(until), ..limits };
-        let samples =
-            Samples::new(&machine, &start, limits, (until, step)).map_err(|error| PlanError::Machine(error.into()))?;
+        let samples = Samples::new(&machine, &start, motion_limits(&machine, until), (until, step));
+        let samples = samples.map_err(|error| PlanError::Machine(error.into()))?;
         Ok(samples.filter(|sample| events || sample.even).take_while(|_| !control.stopping()).collect())
     })?;
     let contact = |sample: &Sample| {

@@ -115,7 +115,7 @@ pub use quantity::{Quantities, Quantity, unknown as unknown_quantity};
 pub use region::{DEFAULT_GRID, Over, RegionPlan, Regions, stability_regions};
 pub use response::{ResponseCurves, ResponsePlan, ResponseRow};
 pub use run::{Orbit, PlanResults, Results, run};
-pub use simulate::{SEARCH_LIMIT, SimulatePlan, Simulated, events_with_states, simulate};
+pub use simulate::{SEARCH_LIMIT, SimulatePlan, Simulated, events_with_states, motion_limits, simulate};
 pub use simulate_many::{real_numbers, simulate_points};
 pub use span::Span;
 pub use stretch::{Stretch, Target};

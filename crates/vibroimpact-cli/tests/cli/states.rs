@@ -176,7 +176,7 @@ fn a13_a_search_limit_is_an_end() {
         name = \"stop\"\ndirection = [1, 1]\ngap = 0.5\nrestitution = 0.5\n";
     fs::write(&file, machine).unwrap();
     let line = |verb: &str| format!("{verb} --machine {} --q 0.1,0 --qdot 0,0.45", file.display());
-    let (code, text, complaint) = ran(".", &line("simulate"));
+    let (code, text, complaint) = ran(".", &line("simulate --time 10000"));
     assert_eq!(code, Some(1), "{text} {complaint}");
     assert!(
         text.contains("ran out of steps") && complaint.contains("hint: numbers that lie many orders"),

@@ -16,14 +16,16 @@ use crate::scene::{self, BifurcationDiagram, View};
 use crate::{AnswerError, BranchQuantity, ReportError, Table, Units, figure, table};
 use vibroimpact::chaos::Exponents;
 use vibroimpact::continuation::machine::SolutionPoint;
-use vibroimpact::events::{Event, Limits, Motion, Start};
+use vibroimpact::events::{Event, Motion, Start};
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::verdict::{Census, Settled, Verdict};
 use vibroimpact_plot::{Figure, plain};
 use vibroimpact_study::diagram::Shown as _;
 use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::{CurvePlan, Cut, Orbit, PlanError, ResponseCurves, SectionPoints, Simulated, Task};
+use vibroimpact_study::{
+    CurvePlan, Cut, Orbit, PlanError, ResponseCurves, SectionPoints, Simulated, Task, motion_limits,
+};
 
 /// The largest number of characters of a title over an axis of ordinary width.
 const TITLE: usize = 45;
@@ -57,9 +59,7 @@ impl AnswerOf<MachineSource> {
 
     /// The waveform of a motion from a state over a time.
     fn waveform(&self, from: &Start, time: f64, title: String) -> Result<Figure, AnswerError> {
-        let limits = Limits::default();
-        let limits = Limits { time: limits.time.max(time), ..limits };
-        let motion = Motion::new(&self.system, from, limits);
+        let motion = Motion::new(&self.system, from, motion_limits(&self.system, time));
         let motion = motion.map_err(|error| ReportError::Plan(PlanError::Machine(error.into())))?;
         let events = motion.take_while(|event| event.time <= time).take(MOST_EVENTS).collect();
         let found = Simulated { events, reason: "time_limit", time, until: time, horizon: None, shown_until: time };

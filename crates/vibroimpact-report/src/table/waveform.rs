@@ -7,13 +7,13 @@ use crate::number::Number;
 use crate::{ReportError, Units};
 use serde_json::Value;
 use vibroimpact::events;
-use vibroimpact::events::{EventKind, Limits, Motion, Samples};
+use vibroimpact::events::{EventKind, Motion, Samples};
 use vibroimpact::machine::{Machine, MachineError, Opening, StopLaw};
 use vibroimpact::motion::sample;
 use vibroimpact::verdict::Settled;
 use vibroimpact::{Oscillator, QuantityKind, Start};
-use vibroimpact_study::PlanError;
 use vibroimpact_study::machine::contact_word;
+use vibroimpact_study::{PlanError, motion_limits};
 
 /// Maximum number of points at equal steps.
 const MOST_POINTS: f64 = 1e7;
@@ -74,13 +74,7 @@ pub fn samples<'a>(
 ) -> Result<Samples<'a>, ReportError> {
     few_enough(until, step)?;
     let step = if step > 0.0 { step } else { 1.0 };
-    Samples::new(machine, start, limits((until, step)), (until, step)).map_err(refused)
-}
-
-/// The limits of a motion that is shown until a time.
-fn limits((until, _): (f64, f64)) -> Limits {
-    let limits = Limits::default();
-    Limits { time: limits.time.max(until), ..limits }
+    Samples::new(machine, start, motion_limits(machine, until), (until, step)).map_err(refused)
 }
 
 fn refused(error: MachineError) -> ReportError {
@@ -96,7 +90,7 @@ fn refused(error: MachineError) -> ReportError {
 pub fn of_machine<'a>(machine: &'a Machine, start: &events::Start, span: (f64, f64)) -> Result<Table<'a>, ReportError> {
     let (surfaces, forced) = (recovering(machine), machine.parts().frequency.is_some());
     let samples = samples(machine, start, span)?;
-    let motion = Motion::with_states(machine, start, limits(span)).map_err(refused)?;
+    let motion = Motion::with_states(machine, start, motion_limits(machine, span.0)).map_err(refused)?;
     let mut states = motion.filter(|event| event.kind != EventKind::Graze).peekable();
     let mut whole = (!start.exact.is_empty()).then(|| Box::new(start.clone()));
     let rows = samples.map(move |sample| {

@@ -4,10 +4,10 @@ use super::{AfterTransient, DiagramPoint, MotionKind, SAME};
 use crate::PlanError;
 use crate::dynamics::refused;
 use crate::map::options;
+use crate::motion_limits;
 use crate::quantity::values_of;
-use crate::simulate::limits_until;
 use core::f64::consts::TAU;
-use vibroimpact::events::{End, Limits, Motion, Sample, Samples, Start};
+use vibroimpact::events::{End, Motion, Sample, Samples, Start};
 use vibroimpact::machine::Machine;
 use vibroimpact::regime::ContactState;
 use vibroimpact::system::phase;
@@ -37,7 +37,7 @@ pub(super) fn closings(
     if machine.stops().is_empty() {
         return Ok(AfterTransient { kind: MotionKind::NoImpact, points: Vec::new(), last: onwards(start.clone())? });
     }
-    let mut motion = Motion::new(machine, start, Limits::default()).map_err(refused)?;
+    let mut motion = Motion::new(machine, start, motion_limits(machine, f64::INFINITY)).map_err(refused)?;
     let mut points: Vec<DiagramPoint> = Vec::new();
     let (mut count, mut events) = (0, 0);
     // a motion may have many events before its first closing, but one that closes no more is not followed for ever
@@ -80,7 +80,7 @@ pub(super) fn closings(
 
 /// The state a time after a start without events.
 fn after(machine: &Machine, start: &Start, time: f64) -> Result<Start, PlanError> {
-    let samples = Samples::new(machine, start, limits_until(time), (time, time)).map_err(refused)?;
+    let samples = Samples::new(machine, start, motion_limits(machine, time), (time, time)).map_err(refused)?;
     Ok(samples.last().map_or_else(|| start.clone(), |sample| sample.start()))
 }
 
@@ -100,7 +100,7 @@ pub(crate) fn at_phase_zero<'a>(
         start.clone()
     };
     let until = periods as f64 * period;
-    let samples = Samples::new(machine, &start, limits_until(until), (until, period)).map_err(refused)?;
+    let samples = Samples::new(machine, &start, motion_limits(machine, until), (until, period)).map_err(refused)?;
     Ok((start, samples))
 }
 

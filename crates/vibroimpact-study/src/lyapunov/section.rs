@@ -2,10 +2,10 @@
 
 use crate::diagram::{EVENTS_EACH, at_phase_zero};
 use crate::dynamics::refused;
-use crate::{RunError, Stopped, stop_number};
+use crate::{RunError, Stopped, motion_limits, stop_number};
 use vibroimpact::chaos::Section;
 use vibroimpact::events;
-use vibroimpact::events::{Event, Limits, Motion, Sample};
+use vibroimpact::events::{Event, Motion, Sample};
 use vibroimpact::machine::Machine;
 use vibroimpact::motion::ImpactState;
 use vibroimpact::{Oscillator, Start};
@@ -59,7 +59,7 @@ pub(crate) fn section(
     go_on: &dyn Fn() -> bool,
 ) -> Result<SectionPoints, RunError> {
     let whole = |count: u64| usize::try_from(count).unwrap_or(usize::MAX);
-    let motion = Motion::new(machine, start, Limits::default()).map_err(refused)?;
+    let motion = Motion::new(machine, start, motion_limits(machine, f64::INFINITY)).map_err(refused)?;
     let events = motion.take(whole(EVENTS_EACH * (transient + points))).take_while(|_| go_on());
     let closing = |event: Event| {
         let state = events::Start { q: event.q, qdot: event.qdot, phase: event.phase, ..events::Start::default() };

@@ -4,6 +4,7 @@ use super::{SEARCH_LIMIT, SimulatePlan, TELL};
 use crate::{Control, PlanError, RunError, Simulated, Stopped};
 use vibroimpact::events::{End, Event, Limits, Motion, Start};
 use vibroimpact::machine::Machine;
+use vibroimpact::verdict::machine::longest_flight;
 
 /// Follows a motion from a start up to the lengths of a plan.
 pub(crate) fn simulate(
@@ -13,8 +14,8 @@ pub(crate) fn simulate(
     control: &Control<'_>,
 ) -> Result<Simulated<Event>, RunError> {
     let (most, until) = (plan.most_impacts(), plan.until(machine.period()));
-    let limits = limits(until);
-    let mut motion = Motion::new(machine, start, limits).map_err(|error| PlanError::Machine(error.into()))?;
+    let mut motion =
+        Motion::new(machine, start, motion_limits(machine, until)).map_err(|error| PlanError::Machine(error.into()))?;
     let mut events: Vec<Event> = Vec::new();
     let (reason, time) = loop {
         let count = events.len() as u64;
@@ -58,13 +59,15 @@ pub(crate) fn simulate(
 /// # Errors
 /// [`PlanError`] for an invalid start.
 pub fn events_with_states<'a>(machine: &'a Machine, start: &Start, until: f64) -> Result<Motion<'a>, PlanError> {
-    Motion::with_states(machine, start, limits(until)).map_err(|error| PlanError::Machine(error.into()))
+    Motion::with_states(machine, start, motion_limits(machine, until)).map_err(|error| PlanError::Machine(error.into()))
 }
 
-/// The limits of a search for events until a time.
-pub(crate) fn limits(until: f64) -> Limits {
-    let limits = Limits::default();
-    Limits { time: if until.is_finite() { limits.time.max(until) } else { limits.time }, ..limits }
+/// The limits of a motion until a time, which may be infinite: a flight is followed up to then, and for as long as for a verdict, which does
+/// not depend on the unit of time.
+#[must_use]
+pub fn motion_limits(machine: &Machine, until: f64) -> Limits {
+    let longest = longest_flight(machine);
+    Limits { time: if until.is_finite() { longest.max(until) } else { longest }, ..Limits::default() }
 }
 
 /// For how long a motion without further events is worth showing: five periods of the forcing, or as long again.

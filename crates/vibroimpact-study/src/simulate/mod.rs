@@ -4,8 +4,8 @@ mod machine;
 mod plan;
 
 use crate::{Control, Stopped};
-pub use machine::events_with_states;
-pub(crate) use machine::{limits as limits_until, simulate as simulate_machine};
+pub(crate) use machine::simulate as simulate_machine;
+pub use machine::{events_with_states, motion_limits};
 pub use plan::SimulatePlan;
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::motion::{End, Event, EventKind, Motion};
