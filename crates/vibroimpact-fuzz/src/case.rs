@@ -42,7 +42,7 @@ pub fn kind(why: &str) -> String {
 }
 
 /// Maximum number of trials to reduce one case, and their time limit.
-const TRIALS: u32 = 100;
+const TRIALS: u32 = 60;
 const PATIENCE: Duration = Duration::from_secs(8);
 
 /// The source of random numbers of case number `k`.

@@ -9,7 +9,7 @@ use vibroimpact_fuzz::command::Commands;
 /// The same questions in every run, so that a failure is reproducible.
 const SEED: u64 = 1971;
 /// A small number of cases for the regular tests.
-const CASES: u64 = 150;
+const CASES: u64 = 100;
 
 #[test]
 fn an_answer_or_a_refusal() {

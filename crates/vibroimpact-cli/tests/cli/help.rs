@@ -14,8 +14,8 @@ fn examples(command: &str) -> Vec<String> {
 /// The line with at most 25 points along an axis: what the examples can do does not depend on their number.
 fn with_few_points(line: &str) -> String {
     let fewer = |word: &str| match word.splitn(4, ':').collect::<Vec<_>>()[..] {
-        [from, to, count, ..] if count.parse().is_ok_and(|count: u32| count > 25) => {
-            word.replacen(&format!("{from}:{to}:{count}"), &format!("{from}:{to}:25"), 1)
+        [from, to, count, ..] if count.parse().is_ok_and(|count: u32| count > 9) => {
+            word.replacen(&format!("{from}:{to}:{count}"), &format!("{from}:{to}:9"), 1)
         }
         _ => word.to_owned(),
     };

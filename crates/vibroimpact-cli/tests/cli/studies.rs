@@ -121,7 +121,7 @@ fn sweeps_go_on_however_often_they_are_killed() {
     let line = |store: &str, values: u32| {
         format!(
             "diagram --inverse-beta 1.11 --restitution 0.5 --vary gap --over 2:4:{values} --transient 20000 --keep 16 \
-             --store {store}.zarr --threads 2"
+             --store {store}.zarr --threads 1"
         )
     };
     let time = |store: &str, values: u32| {
@@ -138,7 +138,7 @@ fn sweeps_go_on_however_often_they_are_killed() {
     let (mut kills, mut parts) = (0, 0);
     loop {
         let goes_on = kills % 2 == 1 && place.join("zarr.json").exists();
-        let line = if goes_on { "resume killed.zarr --threads 2".to_owned() } else { line("killed", values) };
+        let line = if goes_on { "resume killed.zarr --threads 1".to_owned() } else { line("killed", values) };
         let before = parts_in(&place);
         let mut run = begin(folder.path(), &line);
         // the first one before anything is written, the others when a further part of a sweep has been written
