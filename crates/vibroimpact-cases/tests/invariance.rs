@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 #![allow(clippy::print_stdout, reason = "what is wrong is told as it is found: a long run takes minutes")]
 
+use core::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
@@ -13,9 +14,9 @@ fn long() -> bool {
     std::env::var("VIBROIMPACT_LONG").is_ok()
 }
 
-/// What is wrong with this number of machines of each family, which the threads check one after another; told as it is found.
-fn in_threads(seeds: u64, check: impl Fn(&Case) -> Vec<String> + Sync) -> Vec<String> {
-    let cases: Vec<Case> = (0..seeds).flat_map(|seed| FAMILIES.iter().map(move |family| family.case(seed))).collect();
+/// What is wrong with these machines of each family, which the threads check one after another; told as it is found.
+fn in_threads(seeds: Range<u64>, check: impl Fn(&Case) -> Vec<String> + Sync) -> Vec<String> {
+    let cases: Vec<Case> = seeds.flat_map(|seed| FAMILIES.iter().map(move |family| family.case(seed))).collect();
     let next = AtomicUsize::new(0);
     let work = || -> Vec<String> {
         let cases = core::iter::from_fn(|| cases.get(next.fetch_add(1, Ordering::Relaxed)));
@@ -34,7 +35,7 @@ fn in_threads(seeds: u64, check: impl Fn(&Case) -> Vec<String> + Sync) -> Vec<St
 fn events_do_not_depend_on_names_order_units_and_signs() {
     let budget = Budget { stretches: 40, time: 25.0 };
     let instants = AtomicUsize::new(0);
-    let wrong = in_threads(if long() { 60 } else { 2 }, |case| {
+    let wrong = in_threads(0..if long() { 60 } else { 2 }, |case| {
         let standard = Standard::new(case, budget);
         let compared = Rewriting::ALL.map(|change| standard.same_written(case, change, budget));
         let what = |compared| match compared {
@@ -148,8 +149,9 @@ const LONGER: u32 = 4;
 /// the other one must be that of a motion of the same machine whose numbers differ by roundings.
 #[test]
 fn verdicts_do_not_depend_on_names_order_units_and_signs() {
-    let options = SettleOptions::at_most(if long() { 4000 } else { 500 });
-    let wrong = in_threads(if long() { 60 } else { 1 }, |case| differences(case, &options));
+    let options = SettleOptions::at_most(if long() { 4000 } else { 1000 });
+    // number 0 of `idle` takes longer than all other machines here
+    let wrong = in_threads(if long() { 0..60 } else { 1..3 }, |case| differences(case, &options));
     assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
 }
 
