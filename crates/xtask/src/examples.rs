@@ -8,7 +8,7 @@ use crate::command;
 /// The folder of the examples, from the root of the repository.
 const FOLDER: &str = "crates/vibroimpact/examples";
 /// The command that builds them, with the settings of the tests, which build them too. Nothing is built again.
-const BUILD: &str = "cargo build --workspace --all-features --profile test --examples";
+const BUILD: &str = "cargo build --workspace --profile test --examples";
 
 /// Builds and runs all examples.
 ///

@@ -35,7 +35,7 @@ pub(crate) fn test(root: &Path) -> Result<String, String> {
     install.current_dir(&folder);
     command::run(install)?;
     // a build without tests would have other features, and all dependent crates would be built again
-    command::run(command::words(root, "cargo test --workspace --all-features --no-run --test cli"))?;
+    command::run(command::words(root, "cargo test --workspace --no-run --test cli"))?;
     let (server, url) = serve(root, &target.join("debug/vibro"))?;
     let mut tests = command::words(root, "node run.mjs");
     tests.current_dir(&folder).args([url.as_str(), "screenshots"]).env(VARIABLE, browser);

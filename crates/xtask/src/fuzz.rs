@@ -9,7 +9,7 @@ use crate::command;
 use crate::finish::finish;
 
 /// Builds the command and the driver in the form that the tests of the workspace need.
-const BUILD: &str = "cargo test --workspace --all-features --no-run --test cli --test fuzz";
+const BUILD: &str = "cargo test --workspace --no-run --test cli --test fuzz";
 /// The path of the driver in the target folder.
 const PROGRAM: &str = "debug/vibroimpact-fuzz";
 

@@ -2,8 +2,7 @@
 //! feature `s3`.
 //!
 //! The server is a program from PyPI in its own environment under the target folder. The tests are built for the whole
-//! workspace with all features, as in the other steps, so that existing builds are used. The tests in Python run in the
-//! environment of [`python`], whose build has all features too.
+//! workspace with all features. The tests in Python run in the environment of [`python`], with a module built likewise.
 
 use std::path::Path;
 
@@ -41,9 +40,7 @@ pub(crate) fn test(root: &Path) -> Result<String, String> {
     let cargo = if tools::has_nextest(root) { "cargo nextest run" } else { "cargo test" };
     run(&format!("{cargo} {TESTS}"))?;
     if python::found(root).is_some() {
-        if !root.join(python::PYTHON).is_file() {
-            python::install(root)?;
-        }
+        python::install_with_buckets(root)?;
         run(&format!("{} {PYTHON_TESTS}", python::PYTHON))?;
     }
     Ok("studies in buckets are as those in folders".to_owned())

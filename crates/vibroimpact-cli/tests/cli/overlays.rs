@@ -48,7 +48,6 @@ fn the_export_of_the_page_is_the_figure_of_its_command() {
     for (query, plan, flags, part) in [
         ("layers=stripes", &plain, "", ""),
         ("layers=", &plain, "--layers none", ""),
-        ("layers=regions,stripes", &plain, "--layers regions,stripes", r##"stroke="#ffffff" stroke-width="3.6""##),
         ("layers=stripes,amplitude", &plain, "--layers amplitude,stripes", "#8c1d18"),
         ("layers=paper,stripes", &plain, "--layers paper,stripes", ">T<"),
         ("layers=boundaries", &plain, "--layers boundaries", ""),
@@ -60,7 +59,7 @@ fn the_export_of_the_page_is_the_figure_of_its_command() {
             "layers=paper,stripes,regions,amplitude,boundaries&mark=1.3,1&line=0.5,-1,1.1,2.5",
             &plain,
             "--layers regions,amplitude,paper,stripes,boundaries --mark 1.3,1 --line 0.5,-1:1.1,2.5",
-            "#b5221b",
+            r##"stroke="#ffffff" stroke-width="3.6""##,
         ),
         ("layers=paper,stripes&mark=1.3,1&colour=power", &fields, "--colour power --layers paper --mark 1.3,1", ">T<"),
         ("layers=stripes&colour=power", &fields, "--colour power", ""),

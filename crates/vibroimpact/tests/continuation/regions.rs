@@ -205,7 +205,7 @@ fn across_a_frequency_of_whole_natural_periods() {
 /// and 2/2 with `VIBROIMPACT_LONG=1`.
 #[test]
 fn two_and_three_impacts_in_several_periods_in_the_papers_plane() {
-    for (m, n) in [(2, 4), (3, 2), (2, 2)].into_iter().take(if is_long() { 3 } else { 1 }) {
+    for (m, n) in [(3, 2), (2, 2), (2, 4)].into_iter().take(if is_long() { 3 } else { 2 }) {
         let case = paper(Label::new(m, n));
         let [existence, _] = [RegionKind::Existence, RegionKind::Stability].map(|kind| {
             let region = region(&case.osc, case.label, kind, &case.frame, RegionOptions::default());

@@ -4,7 +4,7 @@ use super::elementary::{decay, sin_cos};
 use super::fixed::Fixed;
 use super::random::Random;
 use super::textbook::{Data, Solution};
-use astro_float::{BigFloat, Consts, RoundingMode};
+use astro_float_num::{BigFloat, Consts, RoundingMode};
 
 /// Bits of the reference.
 const BITS: usize = 640;

@@ -12,8 +12,10 @@ use crate::orbit::{Count, Label, MachineFrame, MachineLap, find_unreduced, machi
 use crate::verdict::scattered_machine_starts;
 use core::cell::RefCell;
 
-/// The cycles are searched for at every so many points of the grid in each direction.
+/// The cycles are searched for at every so many points of the grid in each direction, or at fewer where these would be less than
+/// [`LEAST`].
 const EVERY: u32 = 3;
+const LEAST: u32 = 3;
 /// The number of starts from which they are searched for at each of these points.
 const STARTS: u64 = 8;
 /// Two cycles at one point that differ by less are the same.
@@ -63,9 +65,9 @@ impl Plane {
     /// more accurate.
     ///
     /// The polygons contain the points to which a cycle could be followed from another point. Cycles are searched for at every
-    /// third point of the grid, so parts of the region with fewer points can be missed, and so can orbits that are not stable and
-    /// to which no start leads. The largest distance between the edges of a polygon and the true edge is about $`10^{-3}`$ of a
-    /// quarter of the frame. Points of the grid at which a cycle was found outside the polygons, or none inside, are
+    /// third point of the grid (of a small grid at three in each direction or more), so parts of the region with fewer points can
+    /// be missed, and so can orbits that are not stable and to which no start leads. The largest distance between the edges of a
+    /// polygon and the true edge is about $`10^{-3}`$ of a quarter of the frame. Points of the grid at which a cycle was found outside the polygons, or none inside, are
     /// [unresolved](Region::unresolved). Of the options, `grid` and `vertices` are used.
     ///
     /// ```
@@ -96,7 +98,10 @@ impl Plane {
     #[must_use]
     pub fn seeds_while(&self, label: Label, options: RegionOptions, go_on: &dyn Fn() -> bool) -> Option<Seeds> {
         let (columns, rows) = options.grid;
-        let some = |count: u32| (0..count).filter(move |k| k % EVERY == (EVERY / 2).min(count - 1));
+        let some = |count: u32| {
+            let every = (count / LEAST).clamp(1, EVERY);
+            (0..count).filter(move |k| k % every == every / 2)
+        };
         let mut cycles = Vec::new();
         for place in some(rows).flat_map(|j| some(columns).map(move |i| (i, j))) {
             let at = node(&self.ranges, place, options.grid);
