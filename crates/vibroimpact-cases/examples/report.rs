@@ -1,19 +1,28 @@
 //! How many machines of each family break which rule: `cargo run -p vibroimpact-cases --example report [COUNT] [FAMILY]`.
 //!
-//! With a family, all its faults are listed. With `show FAMILY SEED` the file of a machine is printed, and its faults as comments.
+//! With a family, all its faults are listed. With `show FAMILY SEED` the file of a machine is printed, and its faults as comments,
+//! with `show FAMILY SEED K` that of the machine in its writing K, from 0 to 7.
 #![allow(clippy::print_stdout, reason = "it is a report")]
 
 use std::collections::BTreeMap;
 use std::panic::catch_unwind;
-use vibroimpact_cases::{Budget, DrawnFamily, FAMILIES, Rule, faults};
+use vibroimpact_cases::{Budget, Case, Changed, DrawnFamily, FAMILIES, Rewriting, Rule, changed, faults};
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    if let ["show", family, seed] = words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+    if let ["show", family, seed, ref writing @ ..] = words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         let (Some(family), Ok(seed)) = (DrawnFamily::named(family), seed.parse()) else {
             return println!("no such case");
         };
-        let case = family.case(seed);
+        let mut case = family.case(seed);
+        if let Some(writing) = writing.first() {
+            let Some(writing) = writing.parse().ok().and_then(|k: usize| Rewriting::ALL.get(k)) else {
+                return println!("no such writing");
+            };
+            let Changed { machine, start, .. } = changed(&case, *writing);
+            // what is known of its motion is in the order of the case
+            case = Case { machine, start, symmetries: Vec::new(), equal: Vec::new(), same_as: None, ..case };
+        }
         println!("{}", case.toml());
         for fault in faults(&case, Budget::default()) {
             println!("# {fault}");
