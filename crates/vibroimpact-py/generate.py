@@ -1,5 +1,5 @@
-"""Writes the types of the questions, `python/vibroimpact/_questions.pyi`: their arguments are those of the functions, and the types
-are those of the fields of their tasks in the schema of plans.
+"""Writes the types of the questions, `python/vibroimpact/_questions.pyi` and `_grids.pyi`: their arguments are those of the functions,
+and the types are those of the fields of their tasks in the schema of plans.
 
     target/python/bin/python crates/vibroimpact-py/generate.py
 
@@ -10,13 +10,14 @@ import inspect
 import json
 import sys
 import textwrap
-from collections.abc import Iterator
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
-from vibroimpact import _core, _questions
+from vibroimpact import _core, _grids, _questions
 
-FILE = Path(__file__).parent / "python/vibroimpact/_questions.pyi"
+#: The modules of questions, and the files of their types.
+FILES = {of: Path(__file__).parent / f"python/vibroimpact/{of.__name__.rpartition('.')[2]}.pyi" for of in (_questions, _grids)}
 #: Types of the arguments that questions have besides the fields of their tasks.
 COMMON = {
     "system": "System", "x": "float", "v": "float", "phase": "float", "q": "ArrayLike", "qdot": "ArrayLike",
@@ -106,22 +107,20 @@ def signature(name: str, function: Any, task: dict[str, Any]) -> str:
     return f"def {name}(\n{arguments}) -> {result}: ...\n"
 
 
-def questions() -> Iterator[tuple[str, Any]]:
-    """The questions by name, in the order of the module."""
-    return ((name, of) for name, of in vars(_questions).items() if callable(of) and hasattr(of, "task"))
-
-
-def text() -> str:
-    """The stub."""
+def text(module: ModuleType) -> str:
+    """The stub of a module."""
     known = tasks(json.loads(_core.schema()))
-    results = {(of.returns.__module__, of.returns.__name__) for _, of in questions() if of.returns is not None}
-    own = {("vibroimpact._ask", "System"), ("vibroimpact._arguments", "Axis, Interval, Progress")}
+    questions = {name: of for name, of in vars(module).items() if callable(of) and hasattr(of, "task")}
+    results = {(of.returns.__module__, of.returns.__name__) for of in questions.values() if of.returns is not None}
+    own = {("vibroimpact._system", "System"), ("vibroimpact._arguments", "Axis, Interval, Progress")}
     imports = "\n".join(f"from {module} import {names}" for module, names in sorted(results | own))
-    lines = [signature(name, of, known[of.task]) for name, of in questions()]
+    lines = [signature(name, of, known[of.task]) for name, of in questions.items()]
     return HEAD.format(imports=imports) + "\n" + "".join(lines)
 
 
 if __name__ == "__main__":
-    if "--check" in sys.argv:
-        raise SystemExit(0 if FILE.read_text() == text() else f"{FILE} is not current: run {__file__}")
-    FILE.write_text(text())
+    for module, file in FILES.items():
+        if "--check" not in sys.argv:
+            file.write_text(text(module))
+        elif file.read_text() != text(module):
+            raise SystemExit(f"{file} is not current: run {__file__}")

@@ -4,8 +4,8 @@ use crate::columns::{column, grid};
 use crate::door::{self, Watch};
 use crate::error::Trouble;
 use crate::events::{EventFields, Events, code};
-use crate::section::{Section, States, columns};
-use crate::simulate::{Lengths, checked_step, lengths};
+use crate::section::{Section, States, columns, whole_periods};
+use crate::simulate::{checked_step, simulate_plan};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use vibroimpact::events::{self, Event, Sample, Samples};
@@ -234,10 +234,10 @@ fn section(machine: &Machine, start: &events::Start, of: &Section) -> Result<Vec
     };
     match of {
         Section::At(times) => states(times),
-        Section::Phase(phase, count) => {
+        Section::Phase(phase, periods) => {
             let period = period()?;
             let first = vibroimpact::system::phase::wrap(phase - start.phase) / core::f64::consts::TAU;
-            let times: Vec<f64> = (0..*count).map(|k| (first + f64::from(k)) * period).collect();
+            let times: Vec<f64> = whole_periods(*periods).map(|k| (first + f64::from(k)) * period).collect();
             let phase = vibroimpact::system::phase::wrap(*phase);
             Ok(states(&times)?.into_iter().map(|(time, _, q, qdot)| (time, phase, q, qdot)).collect())
         }
@@ -267,6 +267,7 @@ pub(crate) fn states_of_machines<'py>(
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> Result<States<'py>, Trouble> {
+    of.check()?;
     let n = file.0.machine()?.n();
     let found = each(py, file, (numbers, starts), (threads, progress), move |there, start, _| {
         let (machine, start) = there.starting(start).problem()?;
@@ -289,13 +290,13 @@ pub(crate) fn simulate_machines<'py>(
     file: &MachineFile,
     numbers: Numbers,
     starts: Vec<Start>,
-    limits: Lengths,
+    plan: &str,
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> Result<ManyEventFields<'py>, Trouble> {
-    let machine = file.0.machine()?;
+    let (machine, plan) = (file.0.machine()?, simulate_plan(plan)?);
     let found = each(py, file, (numbers, starts), (threads, progress), move |there, start, control| {
-        match run(&Plan::new(there.starting(start), lengths(limits)), control)? {
+        match run(&Plan::new(there.starting(start), plan), control)? {
             PlanResults::Machine(Results::Simulate(found)) => Ok(found),
             _ => Err(Trouble::Defect("following machines")),
         }

@@ -17,12 +17,9 @@ pub(crate) const fn start_plan((x, v, phase): StartArgument) -> StartPlan {
     StartPlan { x, v, phase }
 }
 
-/// Numbers of impacts and of forcing periods, and a time.
-pub(crate) type Lengths = (Option<u64>, Option<f64>, Option<f64>);
-
-/// The plan of a simulation up to these lengths.
-pub(crate) const fn lengths((impacts, periods, time): Lengths) -> SimulatePlan {
-    SimulatePlan { start: None, impacts, periods, time }
+/// The plan of a simulation, which is JSON.
+pub(crate) fn simulate_plan(plan: &str) -> Result<SimulatePlan, Trouble> {
+    serde_json::from_str(plan).map_err(|error| Trouble::question(error.to_string()))
 }
 
 /// Maximum number of points of a waveform.

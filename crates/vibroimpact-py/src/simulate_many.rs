@@ -4,8 +4,8 @@ use crate::door::{self, Watch};
 use crate::error::Trouble;
 use crate::oscillator::OscillatorFile;
 use crate::points::column;
-use crate::section::{Section, States, columns};
-use crate::simulate::{Lengths, StartArgument, lengths, start_plan};
+use crate::section::{Section, States, columns, whole_periods};
+use crate::simulate::{StartArgument, simulate_plan, start_plan};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use vibroimpact::motion::{Level, Strobes, states_at};
@@ -75,13 +75,13 @@ pub(crate) fn simulate_points<'py>(
     osc: OscillatorFile,
     over: Over<'py>,
     start: StartArgument,
-    limits: Lengths,
+    plan: &str,
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> Result<ManyFields<'py>, Trouble> {
     let Asked { points, system, start } = Asked::new(osc, &over, start)?;
     let watch = Watch { what: "following motions", total: points.count(), progress, threads };
-    let plan = lengths(limits);
+    let plan = simulate_plan(plan)?;
     let real = PyArray1::zeros(py, real_numbers(&points, &plan), false);
     let mut borrowed = real.readwrite();
     let memory = borrowed.as_slice_mut().map_err(|_| Trouble::Defect("borrowing new memory"))?;
@@ -114,6 +114,7 @@ pub(crate) fn states_of_points<'py>(
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> Result<States<'py>, Trouble> {
+    of.check()?;
     let rows =
         Asked::new(osc, &over, start)?.each(py, (threads, progress), move |osc, start, _| section(osc, start, &of))?;
     Ok(columns(py, &rows, 4, |state, k| state[k]))
@@ -126,9 +127,9 @@ fn section(osc: &Oscillator, start: Start, of: &Section) -> Result<Vec<[f64; 4]>
             let states = states_at(osc, start, times).into_iter().zip(times);
             states.map(|(state, time)| state.map_or([f64::NAN; 4], |of| [*time, of.phase, of.x, of.v])).collect()
         }
-        Section::Phase(phase, count) => {
+        Section::Phase(phase, periods) => {
             let first = wrap(phase - start.phase) / osc.beta();
-            let states = (0..*count).zip(Strobes::new(osc, start, *phase));
+            let states = whole_periods(*periods).zip(Strobes::new(osc, start, *phase));
             states.map(|(k, of)| [first + f64::from(k) * osc.period(), of.phase, of.x, of.v]).collect()
         }
         Section::Position(_, position, periods) => {

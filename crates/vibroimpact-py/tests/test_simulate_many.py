@@ -95,7 +95,11 @@ def test_questions_that_make_no_sense(s: vi.Oscillator) -> None:
         ({"at": [0.0], "periods": 5}, "periods has no meaning with at"),
         ({"phase": np.inf}, "phase = inf is not a finite number"),
         ({"position": 0.75}, "start x = 0.75 lies beyond the stop|0.75"),
-        ({"periods": -1}, "periods = -1 lies outside"),
+        ({"periods": -1}, "periods = -1 lies outside 0 < periods <= 1e9"),
+        ({"periods": 0, "position": 0.5}, "periods = 0 lies outside"),
+        ({"periods": 2e9, "phase": 0.5}, "periods = 2000000000 lies outside"),
+        ({"periods": np.nan}, "periods = NaN is not a finite number"),
+        ({"time": 1e11}, "time = 100000000000 lies outside 0 < time <= 1e10"),
         ({"impacts": 0}, "impacts = 0 lies outside 1 <= impacts <= 10000000"),
         ({"impacts": -3}, "impacts = -3 lies outside 1 <= impacts <= 10000000"),
     ):

@@ -32,7 +32,7 @@ fn rows(points: &PointsPlan) -> usize {
 /// events are written to `real`, which has room for [so many](real_numbers), unless the columns are refitted.
 ///
 /// # Errors
-/// [`RunError`] for the first invalid point, or when stopped.
+/// [`RunError`] for a length outside its range, for the first invalid point, or when stopped.
 ///
 /// # Panics
 /// If `real` has another length.
@@ -44,6 +44,7 @@ pub fn simulate_points(
     control: &Control<'_>,
 ) -> Result<EventColumns, RunError> {
     assert_eq!(real.len(), real_numbers(points, plan), "real numbers");
+    plan.check()?;
     points.check(system, start, |there, start| start.start(&there.oscillator()?).map(|_| ()))?;
     let one = if points.one_system() { Some(system.oscillator()?) } else { None };
     let tile = TILES[usize::from(one.is_none())];

@@ -41,30 +41,35 @@ Results contain arrays. `plot()` draws a figure, `to_dict()` returns the fields 
 
 from typing import TYPE_CHECKING
 
-from vibroimpact import _questions, dask
+from vibroimpact import _grids, dask
 from vibroimpact._arguments import Span, set_threads, span
+from vibroimpact._attractors import Attractor, Attractors, Settlement
+from vibroimpact._branch import Branch, BranchEvent, Origin
 from vibroimpact._contact import Contact, contact
-from vibroimpact._continued import (
-    Branch, BranchEvent, Curve, CurveEvent, MarginEnd, Margins, MotionBox, Nearest, Origin, ParameterMargin, Part, Polygon, Region, Response,
-    ResponseCurve,
-)
 from vibroimpact._core import QuestionError, StoppedError, StoreError, __version__
+from vibroimpact._curve import Curve, CurveEvent
+from vibroimpact._edge import Edge
+from vibroimpact._events import Events
+from vibroimpact._grids import basin, orbit_diagram, region_map
 from vibroimpact._lyapunov import Closings, Lyapunov, Strobes
 from vibroimpact._machine import Machine
-from vibroimpact._many import settle_many, simulate_many
-from vibroimpact._motion import (
-    Attractor, Attractors, EarlierContact, Edge, Events, Measured, Motion, Orbit, Orbits, Settled, Settlement, Simulation, Waveform,
-)
+from vibroimpact._margins import MarginEnd, Margins, MotionBox, Nearest, ParameterMargin
+from vibroimpact._measured import Measured
+from vibroimpact._motion import Motion, Settled
+from vibroimpact._orbits import EarlierContact, Orbit, Orbits
 from vibroimpact._oscillator import Oscillator, Questions, Units
 from vibroimpact._plan import Estimate, Plan
-from vibroimpact._questions import (
-    attractors, basin, branch, curve, edge, lyapunov, margins, orbit_diagram, orbits, region, region_map, response, settle,
-    simulate,
-)
+from vibroimpact._questions import attractors, branch, curve, edge, lyapunov, margins, orbits, region, response, settle, simulate
 from vibroimpact._refine import refine
+from vibroimpact._region import Part, Polygon, Region
 from vibroimpact._register import register as _register
+from vibroimpact._response import Response, ResponseCurve
 from vibroimpact._sample import Sample, sample
+from vibroimpact._settle_many import settle_many
+from vibroimpact._simulate_many import simulate_many
+from vibroimpact._simulation import Simulation
 from vibroimpact._store import Ran, Status, Verified, open, resume, run, status, verify
+from vibroimpact._waveform import Waveform
 
 if TYPE_CHECKING:
     from vibroimpact._accessor import VibroAccessor
@@ -83,7 +88,7 @@ for _name, _question in {**{of.__name__: of for of in _QUESTIONS}, "map": region
     setattr(Questions, _name, _question)
 # the plans of grids are made by functions of Plan
 for _name in ("map", "basin", "diagram", "lyapunov", "attractors"):
-    setattr(Plan, _name, staticmethod(getattr(_questions, f"plan_{_name}")))
+    setattr(Plan, _name, staticmethod(getattr(_grids, f"plan_{_name}")))
 
 
 def __getattr__(name: str) -> object:

@@ -27,31 +27,15 @@ class Range(NamedTuple):
 _UNSIGNED = 2**64 - 1
 
 STARTS = Range(1, 1_000_000_000)
-#: Starts at each point of a map.
-POINT_STARTS = Range(1, 10_000_000)
 SEED = Range(0, _UNSIGNED)
 #: As for the command.
 THREADS = Range(0, 65_535)
 TILE = Range(1, 4096)
 SHARD = Range(1, 1024)
-REFINE = Range(2, 64)
-KEEP = Range(1, 100_000)
-TRANSIENT = Range(0, 1_000_000)
-#: Impacts of a simulation, of each start of a grid, and of a measurement of exponents.
-SIMULATED = Range(1, 10_000_000)
+#: Impacts of each start of a grid.
 BUDGET = Range(1, 1_000_000)
-MEASURED = Range(1000, 10_000_000)
-#: Points of a section, and of a branch.
-SECTION = Range(1, 100_000)
-BRANCH = Range(2, 100_000)
-FOLLOW = Range(0, 100)
-GRID = Range(2, 400)
-#: Orbits and events are numbered from 1; their number is not known in advance.
-NUMBER = Range(1)
 #: Number of tiles to compute again, and number of retries.
 COUNT = Range(0, _UNSIGNED)
-#: Lines to scattered points of the surface of a box.
-LINES = Range(0, 100_000)
 #: Tasks that a scheduler has at the same time.
 AHEAD = Range(1, 1_000_000)
 #: Blocks of points of an estimate.
@@ -61,23 +45,24 @@ SAMPLES = Range(1, 1_000_000_000)
 #: Cells along a range, and rounds that halve them.
 CELLS = Range(1, 4096)
 ROUNDS = Range(0, 20)
-#: Values of a range.
-SPAN = Range(1)
 
-#: The ranges of the whole numbers of tasks by name, and of those that are other ones in some tasks.
+#: The ranges of the whole numbers of tasks by name, and of those that are other ones in some tasks. Orbits and events are numbered from 1.
 _RANGES = {
-    "impacts": BUDGET, "starts": STARTS, "seed": SEED, "points": BRANCH, "orbit": NUMBER, "event": NUMBER, "follow": FOLLOW, "grid": GRID,
-    "lines": LINES, "refine": REFINE, "transient": TRANSIENT, "keep": KEEP,
+    "impacts": BUDGET, "starts": STARTS, "seed": SEED, "points": Range(2, 100_000), "orbit": Range(1), "event": Range(1),
+    "follow": Range(0, 100), "grid": Range(2, 400), "lines": Range(0, 100_000), "refine": Range(2, 64), "transient": Range(0, 1_000_000),
+    "keep": Range(1, 100_000),
 }
+_MOST_IMPACTS = 10_000_000
 _OF_TASKS = {
-    "simulate": {"impacts": SIMULATED}, "lyapunov": {"impacts": MEASURED, "points": SECTION}, "map": {"starts": POINT_STARTS},
+    "simulate": {"impacts": Range(1, _MOST_IMPACTS)}, "map": {"starts": Range(1, 10_000_000)},
+    "lyapunov": {"impacts": Range(1000, _MOST_IMPACTS), "points": Range(1, 100_000)},
 }
 
 
 def ranges(task: str, oscillator: bool) -> dict[str, Range]:
     """The ranges of the whole numbers of a task."""
     own = _OF_TASKS.get(task, {})
-    return _RANGES | (own if oscillator or task != "lyapunov" else own | {"impacts": SIMULATED})
+    return _RANGES | (own if oscillator or task != "lyapunov" else own | {"impacts": Range(1, _MOST_IMPACTS)})
 
 
 #: The largest number of 32 bits, the size of most counts in a plan.
@@ -188,7 +173,7 @@ def span(first: float, last: float, count: int, *, log: bool = False) -> Span:
     >>> span(0, 3, 601), span(0.1, 10, 3, log=True).values().round(9).tolist()
     ('0.0:3.0:601', [0.1, 1.0, 10.0])
     """
-    text = _text(float(first), float(last), whole("count", count, SPAN)) + (":log" if log else "")
+    text = _text(float(first), float(last), whole("count", count, Range(1))) + (":log" if log else "")
     # refused here, and not later where it is used
     _core.span_values(text)
     return Span(text)

@@ -14,7 +14,7 @@ _Scales: TypeAlias = tuple[float, float, float]
 _Counts: TypeAlias = tuple[int, int, int, int]
 _Progress: TypeAlias = Callable[[int, int], object] | None
 _Array: TypeAlias = NDArray[np.float64]
-_Section: TypeAlias = list[float] | tuple[float, int] | tuple[str, float, float]
+_Section: TypeAlias = list[float] | tuple[float, float] | tuple[str, float, float]
 _Columns: TypeAlias = list[tuple[str, _Array]]
 
 __all__ = [
@@ -115,7 +115,7 @@ class MachineFile:
 
 def simulate_machines(
     file: MachineFile, numbers: list[tuple[str, list[float]]], starts: list[_MachineStart],
-    limits: tuple[int | None, float | None, float | None], threads: int, progress: _Progress,
+    plan: str, threads: int, progress: _Progress,
 ) -> _Fields: ...
 def states_of_machines(
     file: MachineFile, numbers: list[tuple[str, list[float]]], starts: list[_MachineStart],
@@ -136,7 +136,7 @@ def settle_points(
     progress: _Progress,
 ) -> list[_Fields]: ...
 def simulate_points(
-    osc: OscillatorFile, over: _Columns, start: _Start, limits: tuple[int | None, float | None, float | None], threads: int,
+    osc: OscillatorFile, over: _Columns, start: _Start, plan: str, threads: int,
     progress: _Progress,
 ) -> _Fields: ...
 def end_reasons() -> list[str]: ...

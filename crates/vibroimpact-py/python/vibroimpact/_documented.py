@@ -10,7 +10,7 @@ from vibroimpact import _core
 
 #: Types of annotations, and those of documentation.
 _TYPES = {
-    "['\"]": "", r"^Made\[(.*)\]$": r"\1", r"NDArray\[np\.float64\]|_Floats": "ndarray", r"NDArray\[np\.(\w+?)_?\]": r"ndarray of \1",
+    "['\"]": "", r"^Made\[(.*)\]$": r"\1", r"NDArray\[np\.float64\]|Floats": "ndarray", r"NDArray\[np\.(\w+?)_?\]": r"ndarray of \1",
     r"dict\[[^\[\]]*(\[[^\[\]]*\])*[^\[\]]*\]": "dict", r"tuple\[(.*), \.\.\.\]": r"tuple of \1", r"tuple\[([^\[\]]*)\]": r"(\1)",
     r"list\[(.*)\]": r"list of \1", r" \| ": " or ",
 }
@@ -35,6 +35,8 @@ def completed(text: str, section: str, names: Iterable[str], told: Callable[[str
     entries: dict[str, str] = {}
     for head, lines in re.findall(r"^    (\S.*)\n((?:        .*\n?)+)", body, re.M):
         entries |= dict.fromkeys(head.partition(" : ")[0].split(", "), f"    {head}\n{lines.rstrip()}\n")
+    parts = {name: name.split(", ") for name in names}
+    names = [one for name in names for one in (parts[name] if entries.keys() >= set(parts[name]) else [name])]
     for name in names:
         if name not in entries:
             kind, words = told(name)

@@ -8,15 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact import _core
-from vibroimpact._motion import Motion, all_measured, maybe_measured
+from vibroimpact._measured import all_measured, maybe_measured
+from vibroimpact._motion import Motion
 from vibroimpact._oscillator import Oscillator
 from vibroimpact._paint import named
-from vibroimpact._result import Answer, Made, equal, field, part
+from vibroimpact._result import Answer, Floats, Made, equal, field, part
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-_Floats = NDArray[np.float64]
 #: The first colour of series.
 _BLUE = "#0072b2"
 
@@ -25,18 +24,18 @@ class Closings(NamedTuple):
     """The section of an attractor at the closings of stops: stop, phase and speed, and coordinates and velocities after it."""
 
     stop: NDArray[np.str_]
-    phase: _Floats
-    speed: _Floats
+    phase: Floats
+    speed: Floats
     #: Closings x coordinates.
-    q: _Floats
-    qdot: _Floats
+    q: Floats
+    qdot: Floats
 
 
 class Strobes(NamedTuple):
     """The stroboscopic section: coordinates and velocities at phase 0 of the force, states x coordinates."""
 
-    q: _Floats
-    qdot: _Floats
+    q: Floats
+    qdot: Floats
 
 
 class Lyapunov(Answer, schema="lyapunov"):

@@ -11,7 +11,7 @@ from vibroimpact._core import QuestionError
 from vibroimpact._documented import completed, of_field, schema
 
 if TYPE_CHECKING:
-    from vibroimpact import _many, _questions
+    from vibroimpact import _grids, _questions, _settle_many, _simulate_many
 
 T = TypeVar("T")
 F = TypeVar("F", bound=Callable[..., Any])
@@ -53,9 +53,9 @@ class Questions:
 
     if TYPE_CHECKING:
         simulate = _questions.simulate
-        simulate_many = _many.simulate_many
+        simulate_many = _simulate_many.simulate_many
         settle = _questions.settle
-        settle_many = _many.settle_many
+        settle_many = _settle_many.settle_many
         attractors = _questions.attractors
         lyapunov = _questions.lyapunov
         orbits = _questions.orbits
@@ -65,9 +65,9 @@ class Questions:
         margins = _questions.margins
         response = _questions.response
         edge = _questions.edge
-        basin = _questions.basin
-        map = _questions.region_map
-        diagram = _questions.orbit_diagram
+        basin = _grids.basin
+        map = _grids.region_map
+        diagram = _grids.orbit_diagram
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

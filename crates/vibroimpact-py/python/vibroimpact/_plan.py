@@ -10,15 +10,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from vibroimpact import _core
-from vibroimpact._ask import Start, System
 from vibroimpact._arguments import BLOCKS, BUDGET, SHARD, TILE, Budget, maybe, names, seconds, threads_of, whole
 from vibroimpact._machine import Machine
-from vibroimpact._many import Points, points
-from vibroimpact._oscillator import Oscillator
+from vibroimpact._points import Points, points
 from vibroimpact._sample import Sample
+from vibroimpact._system import Start, System, units_of
 
 if TYPE_CHECKING:
-    from vibroimpact import _questions
+    from vibroimpact import _grids
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,11 +153,11 @@ class Plan:
             raise _core.QuestionError(f"`{file}`: {error}") from None
 
     if TYPE_CHECKING:
-        map = staticmethod(_questions.plan_map)
-        basin = staticmethod(_questions.plan_basin)
-        diagram = staticmethod(_questions.plan_diagram)
-        lyapunov = staticmethod(_questions.plan_lyapunov)
-        attractors = staticmethod(_questions.plan_attractors)
+        map = staticmethod(_grids.plan_map)
+        basin = staticmethod(_grids.plan_basin)
+        diagram = staticmethod(_grids.plan_diagram)
+        lyapunov = staticmethod(_grids.plan_lyapunov)
+        attractors = staticmethod(_grids.plan_attractors)
 
     @staticmethod
     def samples(
@@ -206,7 +205,7 @@ def made(system: System, task: str, fields: Mapping[str, Any], tile: int | None,
     """The plan of a task with these fields, of which None are absent."""
     asked = json.dumps({task: {name: of.item() if isinstance(of, np.generic) else of for name, of in fields.items() if of is not None}})
     found = _core.plan_of(system._file, start.of_machine, asked, maybe("tile", tile, TILE))
-    units = system.units if isinstance(system, Oscillator) else None
+    units = units_of(system)
     if units is not None:
         # the numbers of the plan are nondimensional; its results can be converted with these units
         return Plan(json.dumps({**json.loads(found[0]), "units": asdict(units)}))

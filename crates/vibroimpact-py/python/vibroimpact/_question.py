@@ -1,19 +1,22 @@
 """What all questions have in common: where a motion starts, whole numbers, progress, threads, and where a grid is computed."""
 
 import inspect
+import json
+import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import wraps
 from typing import Any
 
 import numpy as np
 
-from vibroimpact._ask import Start, System, answered
+from vibroimpact import _core
+from vibroimpact._arguments import Progress, ranges, threads_of, watched, whole
 from vibroimpact._core import QuestionError
 from vibroimpact._documented import completed, fields_of, of_field
 from vibroimpact._oscillator import Oscillator
 from vibroimpact._plan import Plan, made as made_plan
-from vibroimpact._arguments import Progress, ranges, whole
 from vibroimpact._result import Answer
+from vibroimpact._system import Start, System
 
 #: The parts of a start of any system, and those that only the start of a machine has beside a label.
 START, STATE = ("x", "v", "q", "qdot", "phase"), ("q", "qdot", "phase")
@@ -36,6 +39,10 @@ WORDS = {
         'quantities are in SI units; of a machine the path of a number, as "frequency" or "stop.wall.gap".',
     ),
     "over": ("str or array", 'Its values: a range ("0.5:1.5:201" has 201 values), or a list or an array of values.'),
+    "fields": (
+        "sequence of str",
+        'Quantities of each motion as further variables: ["impact_speed_max", "power"]. `Motion.quantities` has the names.',
+    ),
     "store": ("path", "The store for the results; tiles that it already contains are not computed again."),
     "client": ("distributed.Client", "A Dask client, whose workers fill the store."),
     "tile": ("int", "Points of a tile along each axis."),
@@ -46,18 +53,39 @@ WORDS = {
     ),
 }
 
+#: What functions of many points say alike of theirs.
+POINTS = {
+    "system": (
+        "Oscillator, Machine, mapping, DataFrame or Dataset",
+        'The system, or values of "inverse_beta" or "beta", "gap", "restitution", "damping", "second_gap", "second_restitution"; of "x", '
+        '"v" and "phase" too.',
+    ),
+    "over": (
+        "mapping, DataFrame or Dataset",
+        'Values of parameters instead of those of an oscillator, in physical units also "force_n" and others; of the numbers of a machine '
+        "by path.",
+    ),
+    "starts": (
+        "mapping, DataFrame or Dataset",
+        'Values of "x", "v" and "phase", of a machine of "q.NAME", "qdot.NAME" and "phase". Default: at rest, or on the stop, at phase 0; '
+        "the start of the machine.",
+    ),
+}
 
-def documented(text: str, names: Sequence[str], task: str) -> str:
+
+def documented(text: str, names: Sequence[str], task: str, words: Mapping[str, tuple[str, str]] = WORDS) -> str:
     """Documentation with an entry for each parameter that it does not describe: in common words, or in those of plans."""
-    starts = {"x": ("x, v, phase",), "q": ("q, qdot, phase",)}
-    of_start = {"x", "v", "q", "qdot", "phase"}
-    shown = [one for name in names for one in (starts.get(name, ()) if name in of_start else (name,))]
-    return completed(text, "Parameters", shown, lambda name: WORDS.get(name) or of_field(fields_of(task)[name]))
+    groups = {"x": "x, v, phase", "q": "q, qdot, phase"}
+    grouped = {name for first in groups if first in names for name in groups[first].split(", ")}
+    shown = [groups.get(name, name) for name in names if name in groups or name not in grouped]
+    return completed(text, "Parameters", shown, lambda name: words.get(name) or of_field(fields_of(task)[name]))
 
 
-def numbered(system: System) -> str:
-    """How a plan calls the name of a number of a system."""
-    return "parameter" if isinstance(system, Oscillator) else "path"
+def document(function: Callable[..., Any], task: str) -> None:
+    """Complete the documentation of a function of many points as that of a question."""
+    code = function.__code__
+    names = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+    function.__doc__ = documented(function.__doc__ or "", names, task, WORDS | POINTS)
 
 
 def known(what: str, given: str | None, allowed: tuple[str | None, ...]) -> None:
@@ -75,6 +103,18 @@ def given_fields(task: str, system: System, given: Mapping[str, Any]) -> dict[st
             plain = value.item() if isinstance(value, np.generic) else value
             found[name] = whole(name, plain, allowed[name]) if name in allowed else plain
     return found
+
+
+def finite(value: Any, name: str) -> None:
+    """Refuse numbers that JSON cannot write."""
+    if isinstance(value, Mapping):
+        for key, of in value.items():
+            finite(of, f"{name} {key}" if name == "start" else str(key))
+    elif isinstance(value, list):
+        for of in value:
+            finite(of, name)
+    elif isinstance(value, float) and not math.isfinite(value):
+        raise QuestionError(f"{name} = {'NaN' if math.isnan(value) else value} is not a finite number")
 
 
 def _documented(made: Any, body: Callable[..., Any], further: Mapping[str, Any], task: str, returns: Any) -> Any:
@@ -108,10 +148,12 @@ def question(
             progress: Progress = options.pop("progress", None)
             count = options.pop("threads", 0) if threads else 1
             fields = given_fields(task, system, body(system, *given, **options))
-            answer = answered(
-                system, task, place.within(fields) if start is START else fields, place, total=total(system, fields),
-                threads=count, progress=progress, what=what,
-            )
+            asked = place.within(fields) if start is START else fields
+            finite(asked, task)
+            with watched(progress, what) as tell:
+                answer = _core.answer(
+                    system._file, place.of_machine, json.dumps({task: asked}), total(system, fields), threads_of(count), tell
+                )
             return result(None, system, answer, place)
 
         further = {**dict.fromkeys(start), **({"threads": 0} if threads else {}), "progress": None}
@@ -146,8 +188,7 @@ def grid(task: str) -> Callable[[Callable[..., tuple[Mapping[str, Any], Mapping[
         ) -> Any:
             from vibroimpact._store import computed
 
-            plan = make(system, *given, **options)
-            return computed(plan, system.units if isinstance(system, Oscillator) else None, store, client, threads, progress)
+            return computed(make(system, *given, **options), store, client, threads, progress)
 
         further = {"store": None, "client": None, "tile": None, "threads": 0, "progress": None}
         made = _documented(ask, body, further, task, None)

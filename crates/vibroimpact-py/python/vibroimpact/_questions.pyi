@@ -8,19 +8,18 @@ import xarray as xr
 from distributed import Client
 from numpy.typing import ArrayLike
 from vibroimpact._arguments import Axis, Interval, Progress
-from vibroimpact._ask import System
-from vibroimpact._continued import Branch
-from vibroimpact._continued import Curve
-from vibroimpact._continued import Margins
-from vibroimpact._continued import Region
-from vibroimpact._continued import Response
+from vibroimpact._attractors import Attractors
+from vibroimpact._branch import Branch
+from vibroimpact._curve import Curve
+from vibroimpact._edge import Edge
 from vibroimpact._lyapunov import Lyapunov
-from vibroimpact._motion import Attractors
-from vibroimpact._motion import Edge
-from vibroimpact._motion import Orbits
+from vibroimpact._margins import Margins
 from vibroimpact._motion import Settled
-from vibroimpact._motion import Simulation
-from vibroimpact._plan import Plan
+from vibroimpact._orbits import Orbits
+from vibroimpact._region import Region
+from vibroimpact._response import Response
+from vibroimpact._simulation import Simulation
+from vibroimpact._system import System
 
 def simulate(
     system: System, *, impacts: SupportsIndex | None = None, periods: float | None = None, time: float | None = None,
@@ -73,48 +72,3 @@ def lyapunov(
     points: SupportsIndex | None = None, x: float | None = None, v: float | None = None, q: ArrayLike | None = None,
     qdot: ArrayLike | None = None, phase: float | None = None, progress: Progress = None,
 ) -> Lyapunov: ...
-def basin(
-    system: System, over: Mapping[str, Axis] | None = None, *, x: Axis | float | None = None,
-    v: Axis | float | None = None, phase: Axis | float | None = None, q: ArrayLike | None = None,
-    qdot: ArrayLike | None = None, refine: SupportsIndex | None = None, impacts: SupportsIndex | None = None,
-    fields: Sequence[str] = (), store: str | PathLike[str] | None = None, client: Client | None = None,
-    tile: SupportsIndex | None = None, threads: SupportsIndex = 0, progress: Progress = None,
-) -> xr.Dataset: ...
-def region_map(
-    system: System, over: Mapping[str, Axis], *, starts: SupportsIndex = 8, seed: SupportsIndex = 1,
-    refine: SupportsIndex | None = None, impacts: SupportsIndex | None = None, fields: Sequence[str] = (),
-    store: str | PathLike[str] | None = None, client: Client | None = None, tile: SupportsIndex | None = None,
-    threads: SupportsIndex = 0, progress: Progress = None,
-) -> xr.Dataset: ...
-def orbit_diagram(
-    system: System, vary: str, over: Axis, *, also: Mapping[str, Interval] | None = None, show: str | None = None,
-    direction: str = 'both', starts: SupportsIndex | None = None, seed: SupportsIndex | None = None,
-    transient: SupportsIndex = 500, keep: SupportsIndex = 64, store: str | PathLike[str] | None = None,
-    client: Client | None = None, tile: SupportsIndex | None = None, threads: SupportsIndex = 0,
-    progress: Progress = None,
-) -> xr.Dataset: ...
-def plan_map(
-    system: System, over: Mapping[str, Axis], *, starts: SupportsIndex = 8, seed: SupportsIndex = 1,
-    refine: SupportsIndex | None = None, impacts: SupportsIndex | None = None, fields: Sequence[str] = (),
-    tile: SupportsIndex | None = None,
-) -> Plan: ...
-def plan_basin(
-    system: System, over: Mapping[str, Axis] | None = None, *, x: Axis | float | None = None,
-    v: Axis | float | None = None, phase: Axis | float | None = None, q: ArrayLike | None = None,
-    qdot: ArrayLike | None = None, refine: SupportsIndex | None = None, impacts: SupportsIndex | None = None,
-    fields: Sequence[str] = (), tile: SupportsIndex | None = None,
-) -> Plan: ...
-def plan_diagram(
-    system: System, vary: str, over: Axis, *, also: Mapping[str, Interval] | None = None, show: str | None = None,
-    direction: str = 'both', starts: SupportsIndex | None = None, seed: SupportsIndex | None = None,
-    transient: SupportsIndex = 500, keep: SupportsIndex = 64, tile: SupportsIndex | None = None,
-) -> Plan: ...
-def plan_lyapunov(
-    system: System, over: Mapping[str, Axis], *, x: float | None = None, v: float | None = None,
-    q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
-    impacts: SupportsIndex | None = None, transient: SupportsIndex = 1000, tile: SupportsIndex | None = None,
-) -> Plan: ...
-def plan_attractors(
-    system: System, starts: SupportsIndex, *, seed: SupportsIndex = 1, impacts: SupportsIndex | None = None,
-    tile: SupportsIndex | None = None,
-) -> Plan: ...

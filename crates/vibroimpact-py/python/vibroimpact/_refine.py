@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
 
-    from vibroimpact._many import Points
+    from vibroimpact._points import Points
 
 #: Most numbers that vary: a cell has a corner for each choice of ends.
 _MOST_SIDES = 4
@@ -168,7 +168,8 @@ def _round(
     how: "tuple[Client | None, int, Progress]",
 ) -> "xr.Dataset":
     """The Dataset of the points of one round."""
-    from vibroimpact import _many, _store
+    from vibroimpact._point_datasets import with_whole_numbers
+    from vibroimpact._store import computed
 
     (system, values, starts), (fields, impacts, tile), (client, threads, progress) = points, options, how
     of_starts = {name: of for name, of in values.items() if name in ("x", "v", "phase")}
@@ -182,5 +183,4 @@ def _round(
     plan = Plan.samples(given, over=of_systems or None, starts=starts or None, fields=fields, impacts=impacts, tile=tile)
     if not place.startswith("s3://"):
         os.makedirs(os.path.dirname(place), exist_ok=True)
-    ds = _store.computed(plan, system.units if isinstance(system, Oscillator) else None, place, client, threads, progress)
-    return _many.with_whole_numbers(ds)
+    return with_whole_numbers(computed(plan, place, client, threads, progress))

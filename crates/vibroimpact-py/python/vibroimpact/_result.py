@@ -4,7 +4,7 @@ import copy
 import json
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import fields, is_dataclass
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
+Floats: TypeAlias = NDArray[np.float64]
 N = TypeVar("N", bound=np.generic)
 R = TypeVar("R")
 V = TypeVar("V", bound="View")
@@ -196,6 +197,8 @@ class Answer(View):
     """The object that the command prints for a question; it is read when it is used."""
 
     _of: Made[dict[str, Any]] = Made(lambda view: view._read(view._answer))
+    #: Whether the object is without a part of what the command prints.
+    _brief = False
 
     def __init__(
         self, of: dict[str, Any] | None, system: Any, answer: _core.Answer | None = None, start: Any = None
@@ -217,6 +220,13 @@ class Answer(View):
     def plan(self) -> str:
         """The plan as JSON."""
         return json.dumps(self._of["plan"])
+
+    def to_dict(self) -> dict[str, Any]:
+        """The object that the command prints with --json."""
+        if not self._brief:
+            return super().to_dict()
+        found: dict[str, Any] = json.loads(self._whole.json(False))
+        return found
 
     @property
     def _whole(self) -> _core.Answer:

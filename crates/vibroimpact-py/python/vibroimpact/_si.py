@@ -27,6 +27,12 @@ def attributes(units: Units | None) -> dict[str, float]:
     return {} if units is None else {LENGTH: units.length_m, _TIME: units.time_s, _MASS: units.mass_kg}
 
 
+def of_plan(plan: str) -> dict[str, float]:
+    """Those of a plan, which is JSON."""
+    units = json.loads(plan).get("units")
+    return {key: float(units[key.removeprefix("unit_")]) for key in _KEYS} if units else {}
+
+
 def converted(ds: "xr.Dataset", units: Units | None) -> "xr.Dataset":
     """The Dataset in metres and seconds, converted with the given units or those in its attributes.
 

@@ -19,6 +19,10 @@ from vibroimpact._core import QuestionError
 if TYPE_CHECKING:
     import xarray as xr
 
+#: What computed a Dataset, as its attributes.
+SOURCE = {"source": f"vibroimpact {_core.__version__}", "history": f"computed by vibroimpact {_core.__version__}"}
+#: The dimension of points that have no other name.
+POINT = "sample"
 #: Powers as figures show them.
 _POWERS = {"2": "\u00b2", "3": "\u00b3"}
 
@@ -38,6 +42,15 @@ def attributes_of(of: Mapping[str, Any]) -> dict[str, Any]:
         attributes["flag_values"] = [value for value, _ in of["flags"]]
         attributes["flag_meanings"] = " ".join(meaning for _, meaning in of["flags"])
     return attributes
+
+
+def variable(of: Mapping[str, Any], points: Mapping[str, int] | None = None) -> tuple[list[str], NDArray[Any], dict[str, Any]]:
+    """A variable that the compiled module describes, with other dimensions of points than that of a list."""
+    sizes = dict(of["dimensions"])
+    if points is not None and sizes.pop(POINT, None) is not None:
+        sizes = {**points, **sizes}
+    values = np.array(of["values"], dtype=object) if isinstance(of["values"], list) else of["values"]
+    return list(sizes), values.reshape(list(sizes.values())), attributes_of(of)
 
 
 def unit_of(attributes: Mapping[Any, Any]) -> str:

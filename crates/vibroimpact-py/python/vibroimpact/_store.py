@@ -1,17 +1,13 @@
 """Studies: over grids as xarray Datasets, in memory or in a store; and stores: run, resume, status, verify and open."""
 
-import json
 import os
 from dataclasses import dataclass
 from importlib.util import find_spec
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
-
 from vibroimpact import _core
 from vibroimpact._arguments import COUNT, SEED, Budget, Progress, part_of, seconds, threads_of, watched, whole
-from vibroimpact._oscillator import Units
 from vibroimpact._plan import Plan
 
 if TYPE_CHECKING:
@@ -21,7 +17,6 @@ if TYPE_CHECKING:
 
 def computed(
     plan: Plan,
-    units: Units | None,
     store: str | PathLike[str] | None,
     client: "Client | None",
     threads: int,
@@ -35,7 +30,7 @@ def computed(
                 "a client needs a store\nhint: store=..., a place that all workers reach; results do not travel"
             )
         with watched(progress, "points") as tell:
-            return _dataset(plan, units, *_core.fill(plan.json, threads, tell))
+            return _dataset(plan, *_core.fill(plan.json, threads, tell))
     # check before a long computation that its result can be read
     need_readers(fspath(store))
     if client is None:
@@ -47,31 +42,17 @@ def computed(
     return open(store)
 
 
-def _dataset(
-    plan: Plan, units: Units | None, coordinates: list[dict[str, Any]], variables: list[dict[str, Any]]
-) -> "xr.Dataset":
+def _dataset(plan: Plan, coordinates: list[dict[str, Any]], variables: list[dict[str, Any]]) -> "xr.Dataset":
     import xarray as xr
 
     from vibroimpact import _accessor, _si  # the import of _accessor registers ds.vibro
-    from vibroimpact._stated import attributes_of, with_fixed
-
-    def variable(of: dict[str, Any]) -> tuple[list[str], Any, dict[str, Any]]:
-        shape = [length for _, length in of["dimensions"]]
-        values = of["values"]
-        array = np.array(values, dtype=object) if isinstance(values, list) else values.reshape(shape)
-        return [name for name, _ in of["dimensions"]], array, attributes_of(of)
+    from vibroimpact._stated import SOURCE, variable, with_fixed
 
     ds = xr.Dataset(
         {of["name"]: variable(of) for of in variables},
         {of["name"]: variable(of) for of in coordinates},
         {
-            "Conventions": "CF-1.11",
-            "title": plan.title,
-            "source": f"vibroimpact {_core.__version__}",
-            "history": f"computed by vibroimpact {_core.__version__}",
-            "plan": plan.json,
-            "plan_hash": plan.hash,
-            **_si.attributes(units),
+            "Conventions": "CF-1.11", "title": plan.title, **SOURCE, "plan": plan.json, "plan_hash": plan.hash, **_si.of_plan(plan.json),
         },
     )
     return with_fixed(ds)
@@ -187,10 +168,7 @@ def run(
     >>> ran.computed, whole, sorted(labels)
     (9, True, ['1/1', '2/1'])
     """
-    part, threads = part_of(part), threads_of(threads)
-    time = None if budget is None else seconds("budget", budget)
-    with watched(progress, "points") as tell:
-        return Ran(*_core.Store(fspath(store), plan.json).run(part, threads, tell, time))
+    return _filled(fspath(store), plan.json, part_of(part), threads_of(threads), progress, budget)
 
 
 def resume(
@@ -207,10 +185,14 @@ def resume(
     vibroimpact.StoreError: there is no store at no/such/place
     hint: `run(plan, store)` begins one
     """
-    threads = threads_of(threads)
+    return _filled(fspath(store), None, (1, 1), threads_of(threads), progress, budget)
+
+
+def _filled(place: str, plan: str | None, part: tuple[int, int], threads: int, progress: Progress, budget: Budget | None) -> Ran:
+    """Compute the tiles that a store lacks."""
     time = None if budget is None else seconds("budget", budget)
     with watched(progress, "points") as tell:
-        return Ran(*_core.Store(fspath(store)).run((1, 1), threads, tell, time))
+        return Ran(*_core.Store(place, plan).run(part, threads, tell, time))
 
 
 def status(store: str | PathLike[str]) -> Status:
@@ -304,10 +286,7 @@ def with_status(store: str | PathLike[str]) -> "xr.Dataset":
     for variable in ds.variables.values():
         if "units" in variable.attrs:
             variable.attrs["units"] = written(str(variable.attrs["units"]))
-    units = json.loads(ds.attrs["plan"]).get("units")
-    if units is not None:
-        of = {name: float(units[name]) for name in ("length_m", "time_s", "mass_kg")}
-        ds.attrs |= _si.attributes(Units(**of))
+    ds.attrs |= _si.of_plan(ds.attrs["plan"])
     return with_fixed(ds)
 
 

@@ -52,7 +52,7 @@ impl SimulatePlan {
     ///
     /// # Errors
     /// [`PlanError::OutOfRange`] for the first one outside its range.
-    pub(crate) fn check(&self) -> Result<(), PlanError> {
+    pub fn check(&self) -> Result<(), PlanError> {
         self.impacts.map_or(Ok(()), |given| limits::check("impacts", given, 1..=10_000_000))?;
         for (name, given, most) in [("periods", self.periods, MOST_PERIODS), ("time", self.time, LONGEST)] {
             if let Some(given) = given.filter(|given| !(*given > 0.0 && *given <= most)) {

@@ -1,23 +1,41 @@
-"""Questions about any system: where a motion starts, and the answer of the compiled module."""
+"""What any system has: names of its coordinates, units, and where a motion starts."""
 
-import json
-import math
 from collections.abc import Mapping
 from typing import Any, TypeAlias
 
 from numpy.typing import ArrayLike
 
-from vibroimpact import _core
 from vibroimpact._core import QuestionError
 from vibroimpact._machine import Machine
-from vibroimpact._oscillator import Oscillator
-from vibroimpact._arguments import Progress, threads_of, watched
+from vibroimpact._oscillator import Oscillator, Units
 
 #: Coordinates, velocities and phase of a machine.
 State: TypeAlias = tuple[list[float], list[float], float]
-
-
 System: TypeAlias = Oscillator | Machine
+
+
+def names_of(system: System) -> tuple[list[str], list[str]]:
+    """The names of the columns of coordinates and of velocities."""
+    if isinstance(system, Oscillator):
+        return ["x"], ["v"]
+    return [f"q.{name}" for name in system.coordinates], [f"qdot.{name}" for name in system.coordinates]
+
+
+def stops_of(system: System) -> tuple[str, ...]:
+    """The names of the stops."""
+    if isinstance(system, Oscillator):
+        return ("upper",) if system.second_gap is None else ("upper", "lower")
+    return system.stops
+
+
+def units_of(system: object) -> Units | None:
+    """The physical units of an oscillator that has them."""
+    return system.units if isinstance(system, Oscillator) else None
+
+
+def numbered(system: System) -> str:
+    """How a plan calls the name of a number of a system."""
+    return "parameter" if isinstance(system, Oscillator) else "path"
 
 
 class Start:
@@ -56,28 +74,3 @@ def _absent(hint: str, **given: object) -> None:
     for name, value in given.items():
         if value is not None:
             raise QuestionError(f"{name} is no part of the start of this system\nhint: {hint}")
-
-
-def _finite(value: Any, name: str) -> None:
-    """Refuse numbers that JSON cannot write."""
-    if isinstance(value, Mapping):
-        for key, of in value.items():
-            _finite(of, f"{name} {key}" if name == "start" else str(key))
-    elif isinstance(value, list):
-        for of in value:
-            _finite(of, name)
-    elif isinstance(value, float) and not math.isfinite(value):
-        raise QuestionError(f"{name} = {'NaN' if math.isnan(value) else value} is not a finite number")
-
-
-def answered(
-    system: System, name: str, fields: Mapping[str, Any], start: Start, *, total: int = 1, threads: int = 1,
-    progress: Progress = None, what: str = "motions",
-) -> _core.Answer:
-    """The answer to a task with these fields."""
-    threads = threads_of(threads)
-    _finite(fields, name)
-    if progress is None:
-        return _core.answer(system._file, start.of_machine, json.dumps({name: fields}), total, threads, None)
-    with watched(progress, what) as tell:
-        return _core.answer(system._file, start.of_machine, json.dumps({name: fields}), total, threads, tell)
