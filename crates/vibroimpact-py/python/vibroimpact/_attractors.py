@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact import _core
+from vibroimpact._json import read
 from vibroimpact._motion import Motion
 from vibroimpact._result import Floats, Listed, Made
 
@@ -85,7 +85,6 @@ class Settlement(Attractors):
         return {"motions": [motion.to_dict() for motion in self], "cells": self.cells.tolist()}
 
     def _figure(self, **shown: Any) -> dict[str, Any]:
-        found: dict[str, Any] = json.loads(_core.shares_figure(self.system._file, [(motion.label, motion.share) for motion in self]))
-        return found
+        return read(_core.shares_figure(self.system._file, [(motion.label, motion.share) for motion in self]))
 
     labels: Made[NDArray[np.str_]] = Made(lambda of: np.array([motion.label for motion in of], dtype=np.str_)[of.cells])

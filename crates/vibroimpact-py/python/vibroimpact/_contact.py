@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from vibroimpact import _core
+from vibroimpact._json import read
 from vibroimpact._result import Answer, Made, column
 
 
@@ -35,8 +36,7 @@ class Contact(Answer, schema="contact ContactObject"):
         return {name: [row.get(name) for row in self._rows] for name in names}
 
     def _figure(self, **options: Any) -> dict[str, Any]:
-        figure: dict[str, Any] = json.loads(self._drawn)
-        return figure
+        return read(self._drawn)
 
 
 def contact(

@@ -1,12 +1,12 @@
 """Documentation in the words of the schemas of plans and answers: attributes of results, and parameters of questions."""
 
-import json
 import re
 from collections.abc import Callable, Iterable
 from functools import lru_cache
 from typing import Any
 
 from vibroimpact import _core
+from vibroimpact._json import read
 
 #: Types of annotations, and those of documentation.
 _TYPES = {
@@ -49,8 +49,7 @@ def completed(text: str, section: str, names: Iterable[str], told: Callable[[str
 @lru_cache
 def schema(verb: str | None = None) -> dict[str, Any]:
     """The schema of the answer to a command, or else that of plans."""
-    found: dict[str, Any] = json.loads(_core.schema(verb))
-    return found
+    return read(_core.schema(verb))
 
 
 @lru_cache

@@ -7,10 +7,9 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from vibroimpact import _core
 from vibroimpact._arguments import BLOCKS, BUDGET, SHARD, TILE, Budget, maybe, names, seconds, threads_of, whole
+from vibroimpact._json import read
 from vibroimpact._machine import Machine
 from vibroimpact._points import Points, points
 from vibroimpact._sample import Sample
@@ -91,8 +90,7 @@ class Plan:
 
     def to_dict(self) -> dict[str, Any]:
         """The fields of the plan."""
-        fields: dict[str, Any] = json.loads(self.json)
-        return fields
+        return read(self.json)
 
     def with_tiles(self, tile: int | None = None, shard: int | None = None) -> "Plan":
         """The same plan with other sizes of its store.
@@ -203,7 +201,7 @@ class Plan:
 
 def made(system: System, task: str, fields: Mapping[str, Any], tile: int | None, start: Start) -> Plan:
     """The plan of a task with these fields, of which None are absent."""
-    asked = json.dumps({task: {name: of.item() if isinstance(of, np.generic) else of for name, of in fields.items() if of is not None}})
+    asked = json.dumps({task: {name: of for name, of in fields.items() if of is not None}})
     found = _core.plan_of(system._file, start.of_machine, asked, maybe("tile", tile, TILE))
     units = units_of(system)
     if units is not None:

@@ -12,7 +12,7 @@ from vibroimpact._arguments import numbers
 from vibroimpact._core import QuestionError
 from vibroimpact._machine import Machine
 from vibroimpact._oscillator import Oscillator
-from vibroimpact._stated import POINT
+from vibroimpact._stated import POINT, STARTS, SYMBOLS
 from vibroimpact._system import System, names_of
 
 if TYPE_CHECKING:
@@ -21,12 +21,8 @@ if TYPE_CHECKING:
 
 #: Names with arrays that broadcast, a table of pandas, or a Dataset of xarray.
 Points: TypeAlias = "Mapping[str, ArrayLike] | pd.DataFrame | xr.Dataset"
-
-#: What an oscillator is made of; the first two are one parameter.
-_PARAMETERS = (
-    "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap", "second_restitution",
-)
-_STARTS = ("x", "v", "phase")
+#: What an oscillator is made of, of which the first two are one parameter.
+_PARAMETERS = tuple(SYMBOLS)
 
 
 class Over(NamedTuple):
@@ -60,9 +56,9 @@ def points(system: "System | Points", over: "Points | None", starts: "Points | N
     if isinstance(system, Machine):
         return _of_machine(system, over, starts)
     osc, own = (system, None) if isinstance(system, Oscillator) else (None, system)
-    fixed, columns, sizes, coords = _collected({"system": own, "over": over, "starts": starts}, _PARAMETERS, _STARTS)
-    first = {name: values for name, values in fixed.items() if name not in _STARTS}
-    first |= {name: float(values[0]) for name, values in columns if name not in _STARTS}
+    fixed, columns, sizes, coords = _collected({"system": own, "over": over, "starts": starts}, _PARAMETERS, tuple(STARTS))
+    first = {name: values for name, values in fixed.items() if name not in STARTS}
+    first |= {name: float(values[0]) for name, values in columns if name not in STARTS}
     if osc is None:
         osc = _system(first)
     elif fixed_here := {name: value for name, value in first.items() if name in fixed}:
@@ -70,7 +66,7 @@ def points(system: "System | Points", over: "Points | None", starts: "Points | N
     if osc.second_gap is None and "second_gap" in first:
         second = {"second_restitution": first["second_restitution"]} if "second_restitution" in first else {}
         osc = osc.replace(second_gap=first["second_gap"], **second)
-    x, v, phase = (fixed.get(name) for name in _STARTS)
+    x, v, phase = (fixed.get(name) for name in STARTS)
     if not columns:
         # one start still is a column, so that one way computes all
         columns = [("v", np.array([v or 0.0]))]
@@ -119,7 +115,7 @@ def _system(first: Mapping[str, float]) -> Oscillator:
     unknown = [name for name in first if name not in _PARAMETERS]
     if unknown:
         raise QuestionError(
-            f"`{unknown[0]}` is no parameter and no coordinate of a start; there are {', '.join(_PARAMETERS)}, {', '.join(_STARTS)}"
+            f"`{unknown[0]}` is no parameter and no coordinate of a start; there are {', '.join(_PARAMETERS)}, {', '.join(STARTS)}"
         )
     missing = [name for name in ("gap", "restitution") if name not in first]
     if missing:

@@ -144,7 +144,7 @@ def question(
 
     def of(body: Callable[..., Mapping[str, Any]]) -> Any:
         def ask(system: System, *given: Any, **options: Any) -> Any:
-            place = Start(system, **{name: options.pop(name, None) for name in start}) if start else Start(system)
+            place = Start(system, **{name: options.pop(name, None) for name in start})
             progress: Progress = options.pop("progress", None)
             count = options.pop("threads", 0) if threads else 1
             fields = given_fields(task, system, body(system, *given, **options))

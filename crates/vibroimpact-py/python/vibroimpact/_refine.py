@@ -13,6 +13,9 @@ from vibroimpact._arguments import CELLS, ROUNDS, Interval, Progress, interval, 
 from vibroimpact._core import QuestionError
 from vibroimpact._oscillator import Oscillator
 from vibroimpact._plan import Plan
+from vibroimpact._point_datasets import with_whole_numbers
+from vibroimpact._stated import STARTS
+from vibroimpact._store import computed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -91,13 +94,28 @@ def refine(
         raise QuestionError(f"{wrong[0]} from {wrong[1]:g} to {wrong[2]:g} is not a range\nhint: (a, b) or \"A:B\" with finite a < b")
     lattice = _Lattice(sides, cells << rounds)
     place = fspath(store).rstrip("/")
+
+    def settled(new: NDArray[np.int64], number: int) -> xr.Dataset:
+        """The Dataset of the points of one round."""
+        values = lattice.values(new)
+        given: Any = system
+        given_starts: Any = starts or {}
+        of_starts = {**given_starts, **{name: of for name, of in values.items() if name in STARTS}}
+        of_systems = {name: of for name, of in values.items() if name not in STARTS}
+        if not isinstance(given, Oscillator):
+            given, of_systems = {**given, **of_systems}, {}
+        plan = Plan.samples(given, over=of_systems or None, starts=of_starts or None, fields=fields, impacts=impacts, tile=tile)
+        if not place.startswith("s3://"):
+            os.makedirs(place, exist_ok=True)
+        return with_whole_numbers(computed(plan, f"{place}/round-{number}.zarr", client, threads, progress))
+
     open_cells = _all_cells(len(sides), cells) << rounds
     side = 1 << rounds
     found: list[xr.Dataset] = []
     for number in range(rounds + 1):
         new = lattice.unknown(_corners(open_cells, side))
         if len(new):
-            ds = _round((system, lattice.values(new), starts), (fields, impacts, tile), f"{place}/round-{number}.zarr", (client, threads, progress))
+            ds = settled(new, number)
             lattice.learn(new, ds["label"].values)
             found.append(ds.assign(round=("sample", np.full(len(new), number, dtype=np.int8), {"long_name": "round of the refinement", "units": "1"})))
         open_cells = open_cells[lattice.differ(_corners(open_cells, side))]
@@ -159,28 +177,3 @@ def _all_cells(sides: int, count: int) -> NDArray[np.int64]:
 def _corners(low: NDArray[np.int64], side: int) -> NDArray[np.int64]:
     """The corners of cells, by cell and corner."""
     return low[:, None, :] + side * _offsets(low.shape[1])[None]
-
-
-def _round(
-    points: tuple[Any, Mapping[str, NDArray[np.float64]], Any],
-    options: tuple[Sequence[str], int | None, int | None],
-    place: str,
-    how: "tuple[Client | None, int, Progress]",
-) -> "xr.Dataset":
-    """The Dataset of the points of one round."""
-    from vibroimpact._point_datasets import with_whole_numbers
-    from vibroimpact._store import computed
-
-    (system, values, starts), (fields, impacts, tile), (client, threads, progress) = points, options, how
-    of_starts = {name: of for name, of in values.items() if name in ("x", "v", "phase")}
-    of_systems = {name: of for name, of in values.items() if name not in of_starts}
-    if isinstance(system, Oscillator):
-        given: Any = system
-    else:
-        given = {**dict(system), **of_systems}
-        of_systems = {}
-    starts = {**dict(starts or {}), **of_starts}
-    plan = Plan.samples(given, over=of_systems or None, starts=starts or None, fields=fields, impacts=impacts, tile=tile)
-    if not place.startswith("s3://"):
-        os.makedirs(os.path.dirname(place), exist_ok=True)
-    return with_whole_numbers(computed(plan, place, client, threads, progress))

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vibroimpact import _core
 from vibroimpact._core import QuestionError
 from vibroimpact._documented import Attributes
+from vibroimpact._json import read
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -213,8 +214,7 @@ class Answer(View):
 
     def _read(self, answer: _core.Answer) -> dict[str, Any]:
         """The object of an answer."""
-        found: dict[str, Any] = json.loads(answer.json(True))
-        return found
+        return read(answer.json(True))
 
     @property
     def plan(self) -> str:
@@ -225,8 +225,7 @@ class Answer(View):
         """The object that the command prints with --json."""
         if not self._brief:
             return super().to_dict()
-        found: dict[str, Any] = json.loads(self._whole.json(False))
-        return found
+        return read(self._whole.json(False))
 
     @property
     def _whole(self) -> _core.Answer:
@@ -244,8 +243,7 @@ class Answer(View):
         if si and units is None:
             raise QuestionError("si=True needs the system in physical units\nhint: Oscillator.from_units")
         scales = units and (units.length_m, units.time_s, units.mass_kg)
-        found: dict[str, Any] = json.loads(self._whole.figure(scales, (diagram, inadmissible, branch), quantity) or "null")
-        return found
+        return read(self._whole.figure(scales, (diagram, inadmissible, branch), quantity) or "null")
 
     def plot(self, ax: Any = None, *, si: bool = False, legend: bool = True, title: str | None = None, **line: Any) -> Any:
         """Draw the figure that the command draws with `--plot`.

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vibroimpact import _core
 from vibroimpact._arguments import SAMPLES, SEED, Interval, interval, whole
 from vibroimpact._core import QuestionError
+from vibroimpact._json import read
 
 
 class Sample(Mapping[str, NDArray[np.float64]]):
@@ -45,8 +46,7 @@ class Sample(Mapping[str, NDArray[np.float64]]):
 
     def to_dict(self) -> dict[str, Any]:
         """How they are drawn, as in a plan."""
-        fields: dict[str, Any] = json.loads(json.dumps(self._drawn))
-        return fields
+        return read(json.dumps(self._drawn))
 
     def low(self) -> dict[str, float]:
         """The corner of the box with the smallest values."""

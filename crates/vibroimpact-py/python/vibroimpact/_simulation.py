@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vibroimpact import _core
 from vibroimpact._events import OF_EVENTS, columns, columns_of
+from vibroimpact._json import read
 from vibroimpact._oscillator import Oscillator
 from vibroimpact._result import Answer, Floats
 from vibroimpact._system import names_of
@@ -78,8 +79,7 @@ class Simulation(Answer, schema="simulate EventObject EndObject"):
         number = range(len(self))[event]
         if isinstance(self.system, Oscillator):
             return {"q": self.q[number].tolist(), "qdot": self.qdot[number].tolist(), "phase": float(self.phase[number])}
-        found: dict[str, Any] = json.loads(_core.machine_state(self.plan, number))
-        return found
+        return read(_core.machine_state(self.plan, number))
 
     def waveform(self, step: float | None = None, *, events: bool = True) -> Waveform:
         """The motion over time, up to `shown_until`.

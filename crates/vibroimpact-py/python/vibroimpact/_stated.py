@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from vibroimpact import _core
 from vibroimpact._core import QuestionError
+from vibroimpact._json import read
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -85,15 +86,12 @@ _FIELDS = {
     "number of the cycle that the start leads to, in the tables cycle_*": "cycle",
     "whether the point was computed itself": "computed",
 }
-_COORDINATES = (
-    "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap", "second_restitution", "x", "v", "phase",
-)
 
 
 @lru_cache(maxsize=1)
 def _known() -> dict[str, str]:
     """The names by the long names."""
-    coordinates = (*_COORDINATES, *_core.body_parameters())
+    coordinates = (*SYMBOLS, *STARTS, *_core.body_parameters())
     return {**_FIELDS, **{_core.coordinate_words(name)[0]: name for name in coordinates}}
 
 
@@ -232,8 +230,7 @@ def title(ds: "xr.Dataset", axes: tuple[str, ...]) -> str:
 def _question(ds: "xr.Dataset") -> dict[str, Any]:
     """The plan of a Dataset; of points, which have no plan, their system."""
     if "plan" in ds.attrs:
-        plan: dict[str, Any] = json.loads(ds.attrs["plan"])
-        return plan
+        return read(ds.attrs["plan"])
     return {"system": json.loads(ds.attrs["system"])} if "system" in ds.attrs else {}
 
 
