@@ -1,5 +1,5 @@
-"""Writes the types of the questions, `python/vibroimpact/_questions.pyi` and `_grids.pyi`: their arguments are those of the functions,
-and the types are those of the fields of their tasks in the schema of plans.
+"""Writes the types of the questions, `python/vibroimpact/_questions.pyi`, `_continuation.pyi` and `_grids.pyi`: their arguments are
+those of the functions, and the types are those of the fields of their tasks in the schema of plans.
 
     target/python/bin/python crates/vibroimpact-py/generate.py
 
@@ -14,10 +14,10 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from vibroimpact import _core, _grids, _questions
+from vibroimpact import _continuation, _core, _grids, _questions
 
 #: The modules of questions, and the files of their types.
-FILES = {of: Path(__file__).parent / f"python/vibroimpact/{of.__name__.rpartition('.')[2]}.pyi" for of in (_questions, _grids)}
+FILES = {of: Path(__file__).parent / f"python/vibroimpact/{of.__name__.rpartition('.')[2]}.pyi" for of in (_questions, _continuation, _grids)}
 #: Types of the arguments that questions have besides the fields of their tasks.
 COMMON = {
     "system": "System", "x": "float", "v": "float", "phase": "float", "q": "ArrayLike", "qdot": "ArrayLike",

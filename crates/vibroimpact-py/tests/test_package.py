@@ -76,7 +76,7 @@ def test_the_types_of_questions_are_those_of_plans(root: Path) -> None:
 
 
 #: The stubs are compared with what is compiled, for which types of other packages play no part.
-STUBBED = ["vibroimpact._core", "vibroimpact._questions", "vibroimpact._grids"]
+STUBBED = ["vibroimpact._core", "vibroimpact._questions", "vibroimpact._continuation", "vibroimpact._grids"]
 STUBS = ["mypy.stubtest", "--mypy-config-file", "crates/vibroimpact-py/stubtest.ini", *STUBBED]
 TOOLS = [STUBS, ["mypy"], ["mypy", "--python-version", "3.10"]]
 #: Those of the long run only: what holds for the oldest Python hardly ever fails for a newer one.

@@ -46,6 +46,7 @@ from vibroimpact._arguments import Span, set_threads, span
 from vibroimpact._attractors import Attractor, Attractors, Settlement
 from vibroimpact._branch import Branch, BranchEvent, Origin
 from vibroimpact._contact import Contact, contact
+from vibroimpact._continuation import branch, curve, margins, region, response
 from vibroimpact._core import QuestionError, StoppedError, StoreError, __version__
 from vibroimpact._curve import Curve, CurveEvent
 from vibroimpact._edge import Edge
@@ -59,7 +60,7 @@ from vibroimpact._motion import Motion, Settled
 from vibroimpact._orbits import EarlierContact, Orbit, Orbits
 from vibroimpact._oscillator import Oscillator, Questions, Units
 from vibroimpact._plan import Estimate, Plan
-from vibroimpact._questions import attractors, branch, curve, edge, lyapunov, margins, orbits, region, response, settle, simulate
+from vibroimpact._questions import attractors, edge, lyapunov, orbits, settle, simulate
 from vibroimpact._refine import refine
 from vibroimpact._region import Part, Polygon, Region
 from vibroimpact._register import register as _register

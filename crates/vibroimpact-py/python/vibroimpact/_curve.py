@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vibroimpact._branch import _Followed
 from vibroimpact._oscillator import Oscillator

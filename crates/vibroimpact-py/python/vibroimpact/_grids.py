@@ -1,6 +1,4 @@
-"""The questions over grids, whose answers are Datasets, and the plans of grids. As for `_questions.py`, their arguments are the fields
-of their tasks in plans, and `crates/vibroimpact-py/generate.py` writes their types in `_grids.pyi`.
-"""
+"""The questions over grids, whose answers are Datasets, and the plans of grids, as the questions of `_questions.py`."""
 
 import numpy as np
 from vibroimpact._arguments import SEED, STARTS, axes, beside, interval, names, sweep, whole

@@ -11,7 +11,7 @@ from vibroimpact._core import QuestionError
 from vibroimpact._documented import completed, of_field, schema
 
 if TYPE_CHECKING:
-    from vibroimpact import _grids, _questions, _settle_many, _simulate_many
+    from vibroimpact import _continuation, _grids, _questions, _settle_many, _simulate_many
 
 T = TypeVar("T")
 F = TypeVar("F", bound=Callable[..., Any])
@@ -59,11 +59,11 @@ class Questions:
         attractors = _questions.attractors
         lyapunov = _questions.lyapunov
         orbits = _questions.orbits
-        branch = _questions.branch
-        curve = _questions.curve
-        region = _questions.region
-        margins = _questions.margins
-        response = _questions.response
+        branch = _continuation.branch
+        curve = _continuation.curve
+        region = _continuation.region
+        margins = _continuation.margins
+        response = _continuation.response
         edge = _questions.edge
         basin = _grids.basin
         map = _grids.region_map

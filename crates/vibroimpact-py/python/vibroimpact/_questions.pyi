@@ -9,15 +9,10 @@ from distributed import Client
 from numpy.typing import ArrayLike
 from vibroimpact._arguments import Axis, Interval, Progress
 from vibroimpact._attractors import Attractors
-from vibroimpact._branch import Branch
-from vibroimpact._curve import Curve
 from vibroimpact._edge import Edge
 from vibroimpact._lyapunov import Lyapunov
-from vibroimpact._margins import Margins
 from vibroimpact._motion import Settled
 from vibroimpact._orbits import Orbits
-from vibroimpact._region import Region
-from vibroimpact._response import Response
 from vibroimpact._simulation import Simulation
 from vibroimpact._system import System
 
@@ -37,36 +32,11 @@ def attractors(
 def orbits(
     system: System, label: str, *, progress: Progress = None,
 ) -> Orbits: ...
-def branch(
-    system: System, vary: str, to: float | tuple[float, float], *, label: str | None = None,
-    also: Mapping[str, float] | None = None, orbit: SupportsIndex | None = None, follow: SupportsIndex = 0,
-    points: SupportsIndex = 5000, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
-    progress: Progress = None,
-) -> Branch: ...
-def curve(
-    system: System, kind: str, over: Mapping[str, Interval], *, label: str | None = None,
-    orbit: SupportsIndex | None = None, event: SupportsIndex | None = None, points: SupportsIndex | None = None,
-    q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None, progress: Progress = None,
-) -> Curve: ...
-def region(
-    system: System, label: str, over: Mapping[str, Interval], *, grid: SupportsIndex = 24, threads: SupportsIndex = 0,
-    progress: Progress = None,
-) -> Region: ...
-def response(
-    system: System, vary: str, over: Axis, *, quantity: str | None = None, impacts: SupportsIndex | None = None,
-    progress: Progress = None,
-) -> Response: ...
 def edge(
     system: System, other: Mapping[str, float], *, laps: SupportsIndex | None = None,
     impacts: SupportsIndex | None = None, x: float | None = None, v: float | None = None, q: ArrayLike | None = None,
     qdot: ArrayLike | None = None, phase: float | None = None, progress: Progress = None,
 ) -> Edge: ...
-def margins(
-    system: System, *, label: str | None = None, vary: Sequence[str] | None = None,
-    scale: Mapping[str, float] | None = None, within: float = 2.0, lines: SupportsIndex | None = None,
-    x: float | None = None, v: float | None = None, q: ArrayLike | None = None, qdot: ArrayLike | None = None,
-    phase: float | None = None, progress: Progress = None,
-) -> Margins: ...
 def lyapunov(
     system: System, *, impacts: SupportsIndex | None = None, transient: SupportsIndex | None = None,
     points: SupportsIndex | None = None, x: float | None = None, v: float | None = None, q: ArrayLike | None = None,

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vibroimpact import _core
 from vibroimpact._result import Answer, Floats, View, column
