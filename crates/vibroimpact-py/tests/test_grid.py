@@ -125,7 +125,7 @@ def test_python_adds_next_to_nothing(s: vi.Oscillator) -> None:
     clock.append(time.process_time())
     found = _core.fill(plan.json, 0, None)
     clock.append(time.process_time())
-    assert _store._dataset(plan, None, *found)["label"].shape == (1000, 1000)
+    assert _store._dataset(plan, *found)["label"].shape == (1000, 1000)
     clock.append(time.process_time())
     before, work, after = np.diff(clock)
     assert before + after < 0.05 * work
