@@ -66,9 +66,5 @@ def contact(
     >>> vi.contact(restitution=0.6, mass=0.8, contact_time=found.contact_time[0], opening="force").stiffness.round(3).tolist()
     [200000.0]
     """
-    given = {
-        "mass": mass, "stiffness": stiffness, "frequency": frequency, "contact_time": contact_time, "restitution": restitution,
-        "damping": damping, "damping_ratio": damping_ratio, "speed": float(speed),
-    }
-    numbers = {name: float(value) for name, value in given.items() if value is not None}
+    numbers = {name: float(value) for name, value in locals().items() if value is not None and name != "opening"}
     return Contact(json.dumps(numbers | ({"opening": opening} if opening else {})))

@@ -164,9 +164,7 @@ class Oscillator(Questions):
     _numbers: dict[str, Any]
     _units: Units | None
 
-    beta, inverse_beta, gap, restitution, damping = (
-        _Number[float](), _Number[float](), _Number[float](), _Number[float](), _Number[float](),
-    )
+    beta, inverse_beta, gap, restitution, damping = (_Number[float]() for _ in range(5))
     second_gap, second_restitution = _Number[float | None](), _Number[float | None]()
     period, free_amplitude = _Number[float](), _Number[float]()
 
