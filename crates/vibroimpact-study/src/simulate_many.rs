@@ -261,4 +261,14 @@ mod tests {
         let stopped = ask(10_000_000);
         assert!(matches!(stopped, Err(RunError::Stopped(of)) if of.done == 0), "{stopped:?}");
     }
+
+    #[test]
+    fn a_length_outside_its_range_is_an_error() {
+        let (points, system) = (listed(&[("v", |u| u)], 3), system(1.8, 0.25, 0.5, 0.0));
+        let plan = SimulatePlan { periods: Some(-1.0), ..SimulatePlan::default() };
+        let mut real = vec![0.0; real_numbers(&points, &plan)];
+        let found = simulate_points(&points, (&system, &StartPlan::default()), &plan, &mut real, &Control::default());
+        let error = found.unwrap_err().to_string();
+        assert!(error.starts_with("periods = -1 lies outside 0 < periods <= 1e9"), "{error}");
+    }
 }

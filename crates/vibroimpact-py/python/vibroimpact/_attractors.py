@@ -39,8 +39,6 @@ class Attractors(Listed[Attractor], schema="attractors"):
 
     Attributes
     ----------
-    motions : list of Attractor
-        The motions.
     share : ndarray
         The share of the starts that lead to each.
     """

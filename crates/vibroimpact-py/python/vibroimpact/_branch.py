@@ -46,8 +46,6 @@ class BranchEvent(View, schema="branch BranchEventObject"):
     kind : str
         "fold", "flip", "torus", "branch point", "grazing", "loss of contact", "stick", "soft landing", "chatter", ..., or the reason
         why the branch ends: "end of range", "closed", "halving", "step limit", "impact limit", "no convergence".
-    ends : bool
-        Whether the branch ends there.
     """
 
     kind: str

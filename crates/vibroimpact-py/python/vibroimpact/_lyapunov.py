@@ -43,8 +43,6 @@ class Lyapunov(Answer, schema="lyapunov"):
 
     Attributes
     ----------
-    exponents : tuple of Measured or None
-        The exponents, the largest first, per unit of time; None if the motion ended before.
     dimension, flow_dimension : Measured or None
         Kaplan-Yorke dimension of the stroboscopic section, and of the flow; None if the largest exponent is not known to differ from 0.
     closings, strobes : named tuples of ndarray

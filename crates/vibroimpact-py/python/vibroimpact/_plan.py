@@ -11,9 +11,10 @@ from vibroimpact import _core
 from vibroimpact._arguments import BLOCKS, BUDGET, SHARD, TILE, Budget, maybe, names, seconds, threads_of, whole
 from vibroimpact._json import read
 from vibroimpact._machine import Machine
+from vibroimpact._oscillator import Oscillator
 from vibroimpact._points import Points, points
 from vibroimpact._sample import Sample
-from vibroimpact._system import Start, System, units_of
+from vibroimpact._system import Start, System
 
 if TYPE_CHECKING:
     from vibroimpact import _grids
@@ -203,10 +204,9 @@ def made(system: System, task: str, fields: Mapping[str, Any], tile: int | None,
     """The plan of a task with these fields, of which None are absent."""
     asked = json.dumps({task: {name: of for name, of in fields.items() if of is not None}})
     found = _core.plan_of(system._file, start.of_machine, asked, maybe("tile", tile, TILE))
-    units = units_of(system)
-    if units is not None:
+    if isinstance(system, Oscillator) and system.units is not None:
         # the numbers of the plan are nondimensional; its results can be converted with these units
-        return Plan(json.dumps({**json.loads(found[0]), "units": asdict(units)}))
+        return Plan(json.dumps({**json.loads(found[0]), "units": asdict(system.units)}))
     plan = object.__new__(Plan)
     plan._set(found)
     return plan

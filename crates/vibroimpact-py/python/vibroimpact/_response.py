@@ -42,8 +42,6 @@ class Response(Answer, schema="response"):
     ----------
     up, down : ResponseCurve
         The motions of the sweeps with rising and with falling values.
-    branches : list of ResponseCurve
-        The branches on which their cycles lie.
     units : dict of str
         The unit of each quantity; those of SI over a number of a body.
     """

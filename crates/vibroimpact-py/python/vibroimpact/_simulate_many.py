@@ -15,13 +15,12 @@ from vibroimpact._core import QuestionError
 from vibroimpact._machine import Machine
 from vibroimpact._point_datasets import dataset
 from vibroimpact._points import Over, Points, points
-from vibroimpact._question import finite, given_fields, document
+from vibroimpact._question import document, finite, given_fields
 from vibroimpact._stated import described
 from vibroimpact._system import State, System, names_of
 
 if TYPE_CHECKING:
     import xarray as xr
-
 
 #: Kinds of events in the order of their codes.
 _KINDS = ("impact", "graze", "stick", "release")

@@ -1,4 +1,4 @@
-"""What any system has: names of its coordinates, units, and where a motion starts."""
+"""What any system has: names of its coordinates and stops, and where a motion starts."""
 
 from collections.abc import Mapping
 from typing import Any, TypeAlias
@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from vibroimpact._core import QuestionError
 from vibroimpact._machine import Machine
-from vibroimpact._oscillator import Oscillator, Units
+from vibroimpact._oscillator import Oscillator
 
 #: Coordinates, velocities and phase of a machine.
 State: TypeAlias = tuple[list[float], list[float], float]
@@ -26,11 +26,6 @@ def stops_of(system: System) -> tuple[str, ...]:
     if isinstance(system, Oscillator):
         return ("upper",) if system.second_gap is None else ("upper", "lower")
     return system.stops
-
-
-def units_of(system: object) -> Units | None:
-    """The physical units of an oscillator that has them."""
-    return system.units if isinstance(system, Oscillator) else None
 
 
 def numbered(system: System) -> str:
