@@ -194,6 +194,23 @@ fn chaos_of_one_part_is_found_in_any_order() {
     }
 }
 
+/// A chain whose bodies collapse without a round that repeats itself, while forces open some of its contacts. The collapse was told to
+/// go on until impacts were as slow as rounding errors, and left gaps as large: its cycle had multipliers of 1e111 in milliseconds,
+/// and another period in pounds and inches.
+#[test]
+fn a_chain_that_collapses_while_contacts_open_has_one_cycle_in_any_writing() {
+    let case = vibroimpact_cases::DrawnFamily::named("chains").unwrap().case(11);
+    let writings = if long() { &Rewriting::ALL[..7] } else { &Rewriting::ALL[1..2] };
+    for writing in writings {
+        let again = changed(&case, *writing);
+        let settled = settle_machine(&again.machine, &again.start, &SettleOptions::at_most(2000)).unwrap();
+        let Verdict::Periodic(cycle) = &settled.verdict else { panic!("{writing:?}: {}", settled.verdict.label()) };
+        assert_eq!((cycle.label.to_string().as_str(), cycle.stability()), ("inf/1", Stability::Stable), "{writing:?}");
+        let largest = cycle.multipliers[0].modulus();
+        assert!((largest - 0.866_407).abs() < 1e-5 && cycle.multipliers[3].modulus() < 1e-12, "{writing:?}: {largest}");
+    }
+}
+
 /// A column of three bodies on a floor comes to rest, however it is written: the lower two collapse again and again, ever more
 /// gently, at gaps below the rounding errors of their coordinates. Rounding errors made a cycle of it that did not end; twice beside
 /// itself a column was summed too early, because changes were counted and not the times at which there are some.

@@ -168,6 +168,9 @@ impl Motion<'_> {
     /// together, along the direction in which the reactions at rest push.
     fn together_at_rest(&mut self, stops: &[usize], rebounds: &[f64]) -> Option<(Place, MachineFlight, Vec<Return>)> {
         let there = self.at_rest(stops)?;
+        if stops.iter().any(|j| there.states[*j] == ContactState::Open) {
+            return None;
+        }
         let structure = self.structures.get(self.machine, &self.normal, &there.states)?;
         let flight = there.flight(&self.normal, structure.clone());
         // what stays held while these stops are open moves none of their gaps

@@ -183,19 +183,26 @@ impl Motion<'_> {
         None
     }
 
-    /// Brings the structure to rest on these stops, and these joints to rest, after a time; `None` if it does not stay on
-    /// one of the stops, or if something else happens before.
+    /// Brings the structure to rest on these stops, and these joints to rest, after a time; `None` if it stays on none of the
+    /// stops, or leaves one before that time, or if something else happens before.
     pub(super) fn come_to_rest(&mut self, places: &[usize], in_turn: bool, left: f64) -> Option<()> {
         let there = self.at_rest(places)?;
+        let stops: Vec<usize> = places.iter().copied().filter(|at| *at < self.machine.stops().len()).collect();
+        let opened: Vec<usize> = stops.iter().copied().filter(|j| there.states[*j] == ContactState::Open).collect();
+        // the forces at rest open a stop at the end of the sum: not before
+        if opened.len() == stops.len() || !opened.is_empty() && left > f64::EPSILON * self.time_scale() {
+            return None;
+        }
         let structure = self.structures.get(self.machine, &self.normal, &there.states)?;
         let flight = there.flight(&self.normal, structure);
-        let stops: Vec<usize> = places.iter().copied().filter(|at| *at < self.machine.stops().len()).collect();
         let kind = if in_turn && stops.len() > 1 { EventKind::Collapse } else { EventKind::Stick };
-        self.rest_after(there, &flight, left, (kind, &stops))
+        self.rest_after(there, &flight, left, (kind, &stops))?;
+        opened.into_iter().for_each(|j| self.announce(EventKind::Release, j, 0.0, Vec::new()));
+        Some(())
     }
 
-    /// The state without the velocities of the gaps of these stops and of these joints, and with what rests and holds then.
-    /// `None` if a stop opens.
+    /// The state without the velocities of the gaps of these stops and of these joints, and with what rests and holds then. Stops
+    /// that the forces open are open.
     pub(super) fn at_rest(&mut self, places: &[usize]) -> Option<Place> {
         let stops = self.machine.stops().len();
         let mut there = self.place.clone();
@@ -237,8 +244,7 @@ impl Motion<'_> {
         if silenced {
             there.close_rests(machine, normal);
         }
-        let opens = |at: &usize| *at < stops && there.states[*at] == ContactState::Open;
-        (!places.iter().any(opens)).then_some(there)
+        Some(there)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::place::{Place, Structures};
 use crate::machine::Machine;
-use crate::regime::{Normal, Structure};
+use crate::regime::{ContactState, Normal, Structure};
 use std::sync::Arc;
 
 /// What a rigid stop does at an impact.
@@ -52,6 +52,12 @@ impl Passage {
             after: None,
             rest: None,
         }
+    }
+
+    /// The stops that the forces opened at the end of impacts that were summed.
+    pub(super) fn opened(&self) -> Vec<usize> {
+        let (Some(after), Some(_)) = (&self.after, &self.rest) else { return Vec::new() };
+        self.pushed.iter().map(|(j, _)| *j).filter(|j| after.states[*j] == ContactState::Open).collect()
     }
 
     /// The time from the beginning of the step to its end.

@@ -541,7 +541,14 @@ impl EventDerivative {
     ) -> Option<Self> {
         let rest = passage.beyond(passage.after.as_ref()?, machine, normal, structures)?;
         if let Some(reset) = at_rest(shape, normal, passage, &rest) {
-            return Some(Self { reset, late: Vec::new() });
+            let opened = passage.opened();
+            if opened.is_empty() {
+                return Some(Self { reset, late: Vec::new() });
+            }
+            let mut held = passage.after.as_ref()?.states.clone();
+            opened.iter().for_each(|j| held[*j] = ContactState::Resting);
+            let held = structures.get(machine, normal, &held)?;
+            return Some(Self { reset, late: vec![late_opening(shape, normal, passage, (&held, &rest))?] });
         }
         LinearEvent::of(shape, machine, normal, structures, passage)?.derivative()
     }
@@ -558,7 +565,8 @@ impl EventDerivative {
 /// if another one changes.
 fn at_rest(shape: &StateShape, normal: &Normal, passage: &Passage, rest: &Structure) -> Option<Matrix> {
     let (before, after) = (passage.before.as_ref()?, passage.after.as_ref()?);
-    let rests = |j: usize| after.states[j].constrains() && !before.states[j].constrains();
+    let opened = passage.opened();
+    let rests = |j: usize| after.states[j].constrains() && !before.states[j].constrains() || opened.contains(&j);
     let guard = |g: &usize| passage.structure.guards[*g].kind;
     let lands = |g: &usize| matches!(guard(g), GuardKind::Gap(j) if rests(j));
     let zero = |at: usize| passage.guards.iter().any(|g| guard(g).place(before.surfaces.len()) == at);
@@ -570,7 +578,8 @@ fn at_rest(shape: &StateShape, normal: &Normal, passage: &Passage, rest: &Struct
         return None;
     }
     // a joint that holds has lost its velocity, and keeps where it is
-    let (stops, joints): (Vec<usize>, Vec<usize>) = rest.held.iter().partition(|at| **at < before.surfaces.len());
+    let (stops, joints): (Vec<usize>, Vec<usize>) =
+        rest.held.iter().chain(&opened).partition(|at| **at < before.surfaces.len());
     let direction = |at: &usize| &normal.directions[*at];
     let holding = Orthonormal::spanning(joints.iter().map(direction));
     let beside: Vec<Vec<f64>> = stops.iter().filter_map(|at| holding.beside(direction(at))).collect();
@@ -600,6 +609,27 @@ fn at_rest(shape: &StateShape, normal: &Normal, passage: &Passage, rest: &Struct
     Some(result)
 }
 
+/// The change of the state for a change of the gap that was closed last, and the gradient of this gap, where the forces open stops at the
+/// end of impacts that accumulate: until they end, these stops are as good as closed, in the structure `held`, and open after it.
+fn late_opening(
+    shape: &StateShape,
+    normal: &Normal,
+    passage: &Passage,
+    (held, open): (&Arc<Structure>, &Arc<Structure>),
+) -> Option<(Vec<f64>, Vec<f64>)> {
+    let (before, after) = (passage.before.as_ref()?, passage.after.as_ref()?);
+    let guard = passage.structure.guards.get(*passage.guards.first()?)?;
+    let GuardKind::Gap(j) = guard.kind else { return None };
+    let (_, rate) = before.gap_and_rate(normal, &before.turns(normal), j);
+    let mut gradient = passage.structure.gradient(normal, &guard.function);
+    gradient.resize(shape.size(), 0.0);
+    // a change h of the gap ends them later by -h/rate
+    let mut late = shape.flow(open, normal, after);
+    add_scaled(&mut late, -1.0, &shape.flow(held, normal, after));
+    late.iter_mut().for_each(|value| *value /= rate);
+    Some((late, gradient))
+}
+
 /// The derivative of the state at the end of a step by the state at `begin`, its beginning; `None` where a guard is only
 /// touched.
 pub(crate) fn step_derivative(
@@ -624,7 +654,7 @@ pub(crate) fn step_derivative(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::events::{Limits, Motion, Start};
+    use crate::events::{EventKind, Limits, Motion, Start};
     use crate::machine::MachineParts;
 
     /// The state a time `until` after the start, its derivative by the start, and the kinds of all events.
@@ -677,6 +707,44 @@ mod tests {
             stop.motion.push(crate::machine::HarmonicMotion { order: 1, cos: 0.05, sin: 0.02 });
         }
         Machine::new(parts).unwrap()
+    }
+
+    /// A body between two others that come together, of which one is pulled away when the impacts have accumulated: its stop opens
+    /// at the end of the collapse, so when they end changes its velocity.
+    #[test]
+    fn a_collapse_at_whose_end_a_stop_opens() {
+        let mut parts = MachineParts::new(["a", "b", "c"]).with_mass(0, 1.0).with_mass(1, 0.8).with_mass(2, 1.2);
+        parts = parts.with_constant(0, 0.3).with_constant(2, 0.5);
+        parts = parts.with_rigid_stop("left", &[1.0, -1.0, 0.0], 0.1, 0.04);
+        let machine = Machine::new(parts.with_rigid_stop("right", &[0.0, 1.0, -1.0], 0.12, 0.04)).unwrap();
+        let until = 0.4;
+        let start = |change: &[f64]| Start {
+            q: change[..3].to_vec(),
+            qdot: vec![1.0 + change[3], change[4], change[5] - 0.9],
+            ..Start::default()
+        };
+        let motion = Motion::new(&machine, &start(&[0.0; 6]), Limits::default()).unwrap();
+        let events: Vec<EventKind> = motion.take_while(|event| event.time < until).map(|event| event.kind).collect();
+        assert_eq!(events[events.len() - 2..], [EventKind::Collapse, EventKind::Release], "{events:?}");
+        let at = |change: &[f64]| flown(&machine, &start(change), until).unwrap();
+        let (_, derivative, _) = at(&[0.0; 6]);
+        let normal = Normal::new(&machine);
+        let h = 1e-5;
+        for j in 0..6 {
+            let mut change = [0.0; 6];
+            change[j] = h;
+            let plus = at(&change).0;
+            change[j] = -h;
+            let minus = at(&change).0;
+            let unit: Vec<f64> = (0..3).map(|i| f64::from(u8::from(i == j % 3))).collect();
+            let mut direction = vec![0.0; 6];
+            direction[j / 3 * 3..j / 3 * 3 + 3].copy_from_slice(&normal.to_normal(&unit));
+            let exact = derivative.apply(&direction);
+            for i in 0..6 {
+                let difference = (plus[i] - minus[i]) / (2.0 * h);
+                assert!((difference - exact[i]).abs() < 1e-9, "{j} {i}: {difference} {}", exact[i]);
+            }
+        }
     }
 
     /// The derivative over many events against central differences, for every kind of event.
