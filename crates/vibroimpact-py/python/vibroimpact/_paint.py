@@ -31,7 +31,7 @@ _HATCHES = {"rising": "///", "falling": "\\\\\\", "cross": "xxx", "horizontal": 
 #: Width of axes in inches below which there is no room for a legend beside them, and how far below the axes it then begins.
 _NARROW, _BELOW = 3.6, 0.42
 #: Number of entries above which a narrow legend has three columns.
-_MANY = 6
+_MANY_ENTRIES = 6
 _TOKENS = re.compile(r"\\(.)|(\*\*)|(\*)|([_^])(?:\{([^}]*)\}|(.))|([^\\*_^]+)")
 _SIDES = {"above": (0, 1), "below": (0, -1), "right": (1, 1), "left": (1, -1)}
 
@@ -100,7 +100,7 @@ def _add_legend(ax: "Axes", below: str | None = None) -> None:
         return
     from matplotlib.transforms import ScaledTranslation
 
-    columns = {"ncols": 3 if len(shown) > _MANY else 2, "columnspacing": 1.0, "handlelength": 1.5, "handletextpad": 0.5}
+    columns = {"ncols": 3 if len(shown) > _MANY_ENTRIES else 2, "columnspacing": 1.0, "handlelength": 1.5, "handletextpad": 0.5}
     place = ax.transAxes + ScaledTranslation(0, -_BELOW, ax.figure.dpi_scale_trans)
     small = "x-small" if narrow else "small"
     ax.legend(handles=shown, title=below or None, loc="upper center", bbox_to_anchor=(0.5, 0.0), bbox_transform=place, frameon=False,
