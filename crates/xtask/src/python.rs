@@ -35,8 +35,6 @@ const PACKAGES: &str = "-m uv pip install --quiet --requirements pyproject.toml 
 /// The command that builds the compiled module. With the flags and the tests of the other steps, all dependencies have
 /// the same features, and what those steps built is used.
 const COMPILED: &str = "cargo build --workspace --profile test --lib --tests";
-/// The switch with which it reaches buckets too.
-const BUCKETS: &str = "--all-features";
 /// The files of the package in Python.
 const FILES: &str = "crates/vibroimpact-py/python/vibroimpact";
 
@@ -46,22 +44,17 @@ const FILES: &str = "crates/vibroimpact-py/python/vibroimpact";
 /// # Errors
 /// A message that names the step that failed; the program that failed has printed its own messages.
 pub(crate) fn install(root: &Path) -> Result<String, String> {
-    install_as(root, COMPILED)
+    install_with(root, "")
 }
 
-/// As [`install`], with the feature `s3`.
+/// As [`install`], with these switches for the build of the module.
 ///
 /// # Errors
 /// As [`install`].
-pub(crate) fn install_with_buckets(root: &Path) -> Result<String, String> {
-    install_as(root, &format!("{COMPILED} {BUCKETS}"))
-}
-
-/// As [`install`], with the module that a command builds.
-fn install_as(root: &Path, compiled: &str) -> Result<String, String> {
+pub(crate) fn install_with(root: &Path, switches: &str) -> Result<String, String> {
     let Some(python) = found(root) else { return Ok(SKIPPED.to_owned()) };
     environment(root, python, command::run)?;
-    command::run(command::words(root, compiled))?;
+    command::run(command::words(root, &format!("{COMPILED} {switches}")))?;
     copy(root)?;
     Ok(format!("vibroimpact is installed in {ENVIRONMENT}"))
 }

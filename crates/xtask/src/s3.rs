@@ -40,7 +40,7 @@ pub(crate) fn test(root: &Path) -> Result<String, String> {
     let cargo = if tools::has_nextest(root) { "cargo nextest run" } else { "cargo test" };
     run(&format!("{cargo} {TESTS}"))?;
     if python::found(root).is_some() {
-        python::install_with_buckets(root)?;
+        python::install_with(root, "--all-features")?;
         run(&format!("{} {PYTHON_TESTS}", python::PYTHON))?;
     }
     Ok("studies in buckets are as those in folders".to_owned())

@@ -540,8 +540,8 @@ impl EventDerivative {
         passage: &Passage,
     ) -> Option<Self> {
         let rest = passage.beyond(passage.after.as_ref()?, machine, normal, structures)?;
-        if let Some(reset) = at_rest(shape, normal, passage, &rest) {
-            let opened = passage.opened();
+        let opened = passage.opened();
+        if let Some(reset) = at_rest(shape, normal, passage, (&rest, &opened)) {
             if opened.is_empty() {
                 return Some(Self { reset, late: Vec::new() });
             }
@@ -561,11 +561,15 @@ impl EventDerivative {
 }
 
 /// The derivative of the state at rest, in the structure `rest`, by that before the impact after which stops are at rest: of a chatter
-/// that was summed, or of an impact without rebound. `None` if another guard is zero too, if a contact ends, or after a single impact
+/// that was summed, after which the forces opened the stops `opened`, or of an impact without rebound. `None` if another guard is zero too, if a contact ends, or after a single impact
 /// if another one changes.
-fn at_rest(shape: &StateShape, normal: &Normal, passage: &Passage, rest: &Structure) -> Option<Matrix> {
+fn at_rest(
+    shape: &StateShape,
+    normal: &Normal,
+    passage: &Passage,
+    (rest, opened): (&Structure, &[usize]),
+) -> Option<Matrix> {
     let (before, after) = (passage.before.as_ref()?, passage.after.as_ref()?);
-    let opened = passage.opened();
     let rests = |j: usize| after.states[j].constrains() && !before.states[j].constrains() || opened.contains(&j);
     let guard = |g: &usize| passage.structure.guards[*g].kind;
     let lands = |g: &usize| matches!(guard(g), GuardKind::Gap(j) if rests(j));
@@ -579,7 +583,7 @@ fn at_rest(shape: &StateShape, normal: &Normal, passage: &Passage, rest: &Struct
     }
     // a joint that holds has lost its velocity, and keeps where it is
     let (stops, joints): (Vec<usize>, Vec<usize>) =
-        rest.held.iter().chain(&opened).partition(|at| **at < before.surfaces.len());
+        rest.held.iter().chain(opened).partition(|at| **at < before.surfaces.len());
     let direction = |at: &usize| &normal.directions[*at];
     let holding = Orthonormal::spanning(joints.iter().map(direction));
     let beside: Vec<Vec<f64>> = stops.iter().filter_map(|at| holding.beside(direction(at))).collect();

@@ -201,8 +201,8 @@ fn across_a_frequency_of_whole_natural_periods() {
     }
 }
 
-/// Corners at which more vanishes than two bounds, and orbits that few seeds lead to: no point of the grid is left over. 3/2
-/// and 2/2 with `VIBROIMPACT_LONG=1`.
+/// Corners at which more vanishes than two bounds, and orbits that few seeds lead to: no point of the grid is left over. 2/4
+/// with `VIBROIMPACT_LONG=1`.
 #[test]
 fn two_and_three_impacts_in_several_periods_in_the_papers_plane() {
     for (m, n) in [(3, 2), (2, 2), (2, 4)].into_iter().take(if is_long() { 3 } else { 2 }) {

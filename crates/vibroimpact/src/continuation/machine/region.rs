@@ -12,8 +12,8 @@ use crate::orbit::{Count, Label, MachineFrame, MachineLap, find_unreduced, machi
 use crate::verdict::scattered_machine_starts;
 use core::cell::RefCell;
 
-/// The cycles are searched for at every so many points of the grid in each direction, or at fewer where these would be less than
-/// [`LEAST`].
+/// The cycles are searched for at every so many points of the grid in each direction, or at more of them where there would be less
+/// than [`LEAST`].
 const EVERY: u32 = 3;
 const LEAST: u32 = 3;
 /// The number of starts from which they are searched for at each of these points.
@@ -67,8 +67,8 @@ impl Plane {
     /// The polygons contain the points to which a cycle could be followed from another point. Cycles are searched for at every
     /// third point of the grid (of a small grid at three in each direction or more), so parts of the region with fewer points can
     /// be missed, and so can orbits that are not stable and to which no start leads. The largest distance between the edges of a
-    /// polygon and the true edge is about $`10^{-3}`$ of a quarter of the frame. Points of the grid at which a cycle was found outside the polygons, or none inside, are
-    /// [unresolved](Region::unresolved). Of the options, `grid` and `vertices` are used.
+    /// polygon and the true edge is about $`10^{-3}`$ of a quarter of the frame. Points of the grid at which a cycle was found
+    /// outside the polygons, or none inside, are [unresolved](Region::unresolved). Of the options, `grid` and `vertices` are used.
     ///
     /// ```
     /// use vibroimpact::Label;
