@@ -10,6 +10,10 @@ use vibroimpact::orbit::Stability;
 use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 use vibroimpact_cases::{Budget, Case, FAMILIES, Rewriting, Standard, changed, rounded};
 
+/// Many small vectors are allocated for each event.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 fn long() -> bool {
     std::env::var("VIBROIMPACT_LONG").is_ok()
 }

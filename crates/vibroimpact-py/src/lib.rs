@@ -24,6 +24,10 @@ mod simulate;
 mod simulate_many;
 mod store;
 
+/// Many small vectors are allocated for each event of a machine.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// The module `vibroimpact._core`.
 #[pyo3::pymodule]
 mod _core {

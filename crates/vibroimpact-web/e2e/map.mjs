@@ -57,7 +57,7 @@ export async function the_map_rests_while_hidden_and_pauses({ open }) {
 }
 
 export async function the_map_sharpens_by_itself_and_keeps_what_is_decided({ open }) {
-  const { page } = await open("about:blank", { viewport: { width: 340, height: 290 } });
+  const { page } = await open("about:blank", { whole: true, viewport: { width: 340, height: 290 } });
   await countTiles(page);
   const top = 2.4 + 0.01 * Math.random();
   await page.goto(`${page.address}#view=1.1,1.34,1.5,${top}&impacts=1000&panel=none`);
@@ -82,7 +82,7 @@ export async function a_complete_map_has_no_filled_points({ open, address, folde
   // the others take long: chaos, and three starts for each point
   const windows = [[0, [1.2, 1.4, 0.6, 1.4], ""], [1, [1.05, 1.3, 1.6, 2.4], ""], [2, [1.25, 1.35, 0.7, 0.8], "&starts=3"]];
   for (const [k, window, more] of windows.slice(0, process.env.VIBROIMPACT_LONG === "1" ? 3 : 1)) {
-    const { page } = await open("about:blank", { viewport: { width: 340, height: 290 } });
+    const { page } = await open("about:blank", { whole: true, viewport: { width: 340, height: 290 } });
     const [filled, plans] = [[], []];
     page.on("response", async (response) => {
       if (!response.url().includes("/api/whole?") || !response.ok()) return;
@@ -242,7 +242,7 @@ const mean = (page, at) => page.evaluate(([x, y]) => {
 export async function what_is_no_motion_has_a_look_and_a_row_of_its_own({ open, folder }) {
   const window = [0.6, 1.4, 1, 5];
   const link = `#x=restitution&view=${window}&impacts=200&inverse_beta=1.11&layers=&panel=none`;
-  const { page } = await open(link, { viewport: { width: 640, height: 480 } });
+  const { page } = await open(link, { whole: true, viewport: { width: 640, height: 480 } });
   await sharp(page);
   await page.screenshot({ path: `${folder}/looks.png` });
   const named = () => page.$$eval("#legend .legend-item .legend-name", (names) => names.map((name) => name.textContent));

@@ -218,7 +218,7 @@ export async function tiles_have_hardly_more_points_than_pixels({ open }) {
 }
 
 export async function what_was_seen_is_not_asked_again({ open }) {
-  const { page } = await open("#view=1.25,1.35,1.4,1.6&impacts=200", { viewport: { width: 480, height: 400 } });
+  const { page } = await open("#view=1.25,1.35,1.4,1.6&impacts=200", { whole: true, viewport: { width: 480, height: 400 } });
   // a tile that is sharp may still be asked for, to compute its filled points
   await complete(page);
   const asked = [];

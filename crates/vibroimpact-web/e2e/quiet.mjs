@@ -50,7 +50,7 @@ export async function is_quiet_after_zooming_and_clicking({ open }) {
     console.log("        skipped: VIBRO_PID does not say which process the server is");
     return;
   }
-  const { page, context } = await open();
+  const { page, context } = await open("", { whole: true });
   const box = await page.locator("canvas").first().boundingBox();
   const roll = dice(7);
   const act = async () => {

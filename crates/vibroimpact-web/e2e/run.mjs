@@ -46,9 +46,13 @@ function shallow(hash) {
   return `${hash || "#"}${hash.length > 1 ? "&" : ""}impacts=${BUDGET}`;
 }
 
-/** Opens the page and collects its errors. A test that expects errors empties the list. With `full` it has the full budget. */
-async function open(hash = "", { full = false, ...options } = {}) {
+/**
+ * Opens the page and collects its errors. A test that expects errors empties the list. With `full` it has the full budget, with
+ * `whole` it asks for the points between others that agree too: the server would compute them as long as the page is open.
+ */
+async function open(hash = "", { full = false, whole = false, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+  if (!whole) await context.route(/\/api\/whole/, () => {});
   const page = await context.newPage();
   page.setDefaultTimeout(60000);
   const complaints = [];

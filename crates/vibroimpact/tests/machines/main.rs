@@ -141,6 +141,10 @@ fn after_chatter(case: &Case) -> Option<String> {
     None
 }
 
+/// Many small vectors are allocated for each event.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 #[test]
 fn events_in_high_precision() {
     let mut faults = String::new();

@@ -12,6 +12,10 @@ mod verdicts;
 use vibroimpact::machine::{Machine, MachineParts};
 use vibroimpact::{Oscillator, Side, Start};
 
+/// Many small vectors are allocated for each event.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 const SYSTEMS: usize = 500;
 
 /// The random systems.
