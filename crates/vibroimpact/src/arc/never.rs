@@ -5,14 +5,18 @@
 //! positive for every guard, there is no event for ever. A direction without stiffness drifts, and without damping a constant
 //! force accelerates it; this must not close a guard.
 //!
-//! Without damping the transients do not decay. If all frequencies are commensurable, the flight repeats after their common
-//! period, so one such period without an event means that there is none for ever.
+//! Modes without damping do not decay. If all frequencies of these and of the forcing are commensurable, the flight repeats
+//! after their common period, as soon as the other modes have decayed. So one such period without an event means that there is
+//! none for ever.
 
 use super::flight::{MachineFlight, Modes};
 use super::harmonic_sum::{Harmonic, stays_above};
 use super::steady::{Outlook, Steady};
 use crate::math::dot;
-use crate::regime::Normal;
+use crate::regime::{Mode, Normal};
+
+/// Decay times after which a transient is a rounding error of a rounding error: $`e^{-75} = 2^{-108}`$.
+const DECAYED: f64 = 75.0;
 
 impl MachineFlight {
     /// Whether no guard becomes zero after the time `s`, for ever. `false` if this is not proven.
@@ -20,7 +24,7 @@ impl MachineFlight {
         self.at(s, modes);
         let Some(steady) = Steady::of(self, modes) else { return false };
         // a whole period without an event has passed, and all repeats
-        if self.repeats_after().is_some_and(|period| s >= period * (1.0 + 1e-9)) {
+        if self.shown_after().is_some_and(|time| s >= time * (1.0 + 1e-9)) {
             return true;
         }
         (0..self.guards.len()).all(|g| self.stays_open(g, &steady, normal))
@@ -85,18 +89,22 @@ impl MachineFlight {
         sizes
     }
 
-    /// The time after which a flight without damping repeats.
-    fn repeats_after(&self) -> Option<f64> {
+    /// The time after which a flight only repeats what it has shown: the modes with damping and the surfaces of stops have decayed,
+    /// and a period of the other modes and of the forcing has passed.
+    fn shown_after(&self) -> Option<f64> {
         let modes = &self.structure.modes;
-        let first = modes.first()?.omega;
         let moves = self.structure.dense.is_some() || self.drive.ramp.iter().any(|ramp| *ramp != 0.0);
-        if moves || modes.iter().any(|mode| mode.k == 0.0 || mode.d > 0.0) {
+        if modes.is_empty() || moves || modes.iter().any(|mode| mode.k == 0.0) {
             return None;
         }
-        // in units of the first mode, whose turns are then whole numbers where all frequencies are commensurable
-        let of = |w: f64| w / first;
-        let rates = self.structure.rates.iter().copied().chain(modes.iter().map(|mode| mode.omega));
-        let periods = crate::system::common_period(rates.map(of))?;
-        Some(periods * core::f64::consts::TAU / first)
+        let damped = modes.iter().filter(|mode| mode.d > 0.0).map(Mode::slowest_decay);
+        let surfaces = self.guards.iter().filter_map(|guard| guard.recovery).map(|surface| surface.rate);
+        let decayed = damped.chain(surfaces).map(|rate| DECAYED / rate).fold(0.0, f64::max);
+        let lasting = modes.iter().filter(|mode| mode.d == 0.0).map(|mode| mode.omega);
+        let rates: Vec<f64> = lasting.chain(self.structure.rates.iter().copied()).collect();
+        let Some(first) = rates.first() else { return Some(decayed) };
+        // in units of the first rate, whose turns are then whole numbers where all rates are commensurable
+        let periods = crate::system::common_period(rates.iter().map(|rate| rate / first))?;
+        Some(decayed + periods * core::f64::consts::TAU / first)
     }
 }

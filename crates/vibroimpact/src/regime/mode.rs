@@ -101,6 +101,12 @@ impl Mode {
         Self { k, d, omega, rate: omega + 2.0 * d, decays, free: stiff.then(|| FreeResponse::new(damping)), forced }
     }
 
+    /// The rate at which the free motion decays at last, for $`k > 0`$.
+    pub(crate) fn slowest_decay(&self) -> f64 {
+        let Self { k, d, .. } = self;
+        if d * d > *k { k / (d + (d * d - k).sqrt()) } else { *d }
+    }
+
     /// The free responses after a time `s >= 0`.
     pub(crate) fn free(&self, s: f64) -> FreeMode {
         let Some(response) = &self.free else { return self.without_stiffness(s) };

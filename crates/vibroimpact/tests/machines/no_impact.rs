@@ -1,6 +1,6 @@
 //! Motions without a further event, for ever: the steady part of each gap stays open, though the sum of its amplitudes does not.
 
-use vibroimpact::events::{Limits, Motion, Start};
+use vibroimpact::events::{End, Limits, Motion, Start};
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::verdict::{SettleOptions, settle_machine};
 
@@ -163,4 +163,27 @@ fn a_harmonic_without_an_amplitude_drives_nothing() {
     for frequency in [1e-100, 1e6, 1e100] {
         assert_eq!(events(frequency, 3), slow, "{frequency}");
     }
+}
+
+/// 7. A mode without damping beside one that decays, and a stop that the first does not reach by some rounding errors: after the
+///    decay a period without an event shows that there is none.
+#[test]
+fn an_undamped_mode_beside_a_damped_one() {
+    let parts = |gap| {
+        MachineParts::new(["a", "b"])
+            .with_mass(0, 1.0)
+            .with_mass(1, 1.0)
+            .with_link(&[1.0, 0.0], 1.0, 0.0)
+            .with_link(&[0.0, 1.0], 3.0, 4.0)
+            .with_rigid_stop("s", &[1.0, 1.0], gap, 0.5)
+    };
+    let end = |gap| {
+        let machine = Machine::new(parts(gap)).unwrap();
+        let start = Start { q: vec![-0.5, -0.1], ..Start::default() };
+        let mut motion = Motion::new(&machine, &start, Limits::default()).unwrap();
+        (motion.by_ref().count(), motion.end())
+    };
+    assert_eq!(end(0.5 + 2e-14), (0, Some(End::Never)));
+    assert_eq!(end(0.5 + 4e-15), (0, Some(End::Never)));
+    assert!(end(0.499).0 > 0);
 }
