@@ -278,6 +278,34 @@ fn the_branches_at_a_branch_point() {
     }
 }
 
+/// Two equal masses side by side, driven alike, strike their stops at the same time where the gaps are equal: both are named.
+#[test]
+fn a_corner_names_both_stops() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("pair.toml");
+    let text = r#"
+[machine]
+bodies = { a = 1, b = 1 }
+frequency = 1.1
+link = [
+  { between = ["a", "ground"], stiffness = 1, damping = 0.2 },
+  { between = ["b", "ground"], stiffness = 1, damping = 0.2 },
+  { between = ["a", "b"], stiffness = 0.2, damping = 0.02 },
+]
+force = [{ at = "a", sin = 1 }, { at = "b", sin = 1 }]
+stop = [
+  { name = "one", at = "a", gap = 0.3, restitution = 0.6 },
+  { name = "two", at = "b", gap = 0.4, restitution = 0.6 },
+]
+"#;
+    std::fs::write(&file, text).unwrap();
+    let answer = json(&format!("branch --machine {} --vary stop.one.gap --to 0.6", file.display()));
+    let corner = &events(&answer, "corner")[0];
+    assert!((number(&corner["parameter"]) - 0.4).abs() < 1e-9, "{corner}");
+    let names = [&corner["stop"], &corner["also"]["stop"]].map(|name| name.as_str().unwrap());
+    assert!(names == ["one", "two"] || names == ["two", "one"], "{corner}");
+}
+
 /// Two simultaneous grazing contacts, one on each of two identical stops, are both reported.
 #[test]
 fn touches_of_both_stops() {

@@ -183,7 +183,8 @@ pub struct EventFields<'a> {
     /// The phase of this contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     phase: Option<f64>,
-    /// For two equal stops, the contact with the other one that appears or disappears at the same value.
+    /// For two equal stops, the contact with the other one that appears or disappears at the same value; of a corner, the stop
+    /// or joint of the second event.
     #[serde(skip_serializing_if = "Option::is_none")]
     also: Option<TouchObject<'a>>,
 }
@@ -462,6 +463,7 @@ impl<'a> EventFields<'a> {
     ) -> Self {
         let (appears, turns, also) = match event {
             machine::BranchEvent::Grazing { appears, turns, also, .. } => (Some(appears), Some(turns), also),
+            machine::BranchEvent::Corner { first, second } if first != second => (None, None, Some(second)),
             _ => (None, None, None),
         };
         let touch = |place: usize| TouchObject { impact: None, stop: machine.name_of(place), phase: None };

@@ -1,7 +1,8 @@
 //! Motions without a further event, for ever: the steady part of each gap stays open, though the sum of its amplitudes does not.
 
-use vibroimpact::events::{End, Limits, Motion, Start};
+use vibroimpact::events::{ContactStart, End, Limits, Motion, Start};
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
+use vibroimpact::regime::ContactState;
 use vibroimpact::verdict::{SettleOptions, settle_machine};
 
 fn label(parts: MachineParts, start: &Start) -> String {
@@ -186,4 +187,19 @@ fn an_undamped_mode_beside_a_damped_one() {
     assert_eq!(end(0.5 + 2e-14), (0, Some(End::Never)));
     assert_eq!(end(0.5 + 4e-15), (0, Some(End::Never)));
     assert!(end(0.499).0 > 0);
+}
+
+/// 8. Without damping of the structure, but with a surface that comes back slowly: it meets the swing when it stands back by 0.2,
+///    after 100 ln 4 = 138.6.
+#[test]
+fn a_surface_that_comes_back_is_waited_for() {
+    let slow = StopLaw::Compliant { stiffness: 0.05, damping: 5.0, preload: 0.0, opening: Opening::Force };
+    let parts =
+        MachineParts::new(["a"]).with_mass(0, 1.0).with_link(&[1.0], 1.0, 0.0).with_stop("s", &[1.0], 0.3, slow);
+    let machine = Machine::new(parts).unwrap();
+    let contacts = vec![ContactStart { place: 0, state: ContactState::Open, surface: 0.8 }];
+    let start = Start { q: vec![-0.5], contacts, ..Start::default() };
+    let first = Motion::new(&machine, &start, Limits::default()).unwrap().next().unwrap();
+    // the peak after that time is at 45 pi = 141.37
+    assert!((138.6..141.4).contains(&first.time), "{first:?}");
 }
