@@ -24,7 +24,7 @@ impl MachineFlight {
         self.at(s, modes);
         let Some(steady) = Steady::of(self, modes) else { return false };
         // a whole period without an event has passed, and all repeats
-        if self.shown_after().is_some_and(|time| s >= time * (1.0 + 1e-9)) {
+        if self.has_shown_all(s) {
             return true;
         }
         (0..self.guards.len()).all(|g| self.stays_open(g, &steady, normal))
@@ -89,22 +89,26 @@ impl MachineFlight {
         sizes
     }
 
-    /// The time after which a flight only repeats what it has shown: the modes with damping and the surfaces of stops have decayed,
-    /// and a period of the other modes and of the forcing has passed.
-    fn shown_after(&self) -> Option<f64> {
+    /// Whether a flight only repeats after the time `s` what it has shown: the modes with damping and the surfaces of stops have
+    /// decayed, and a period of the other modes and of the forcing has passed.
+    fn has_shown_all(&self, s: f64) -> bool {
         let modes = &self.structure.modes;
         let moves = self.structure.dense.is_some() || self.drive.ramp.iter().any(|ramp| *ramp != 0.0);
         if modes.is_empty() || moves || modes.iter().any(|mode| mode.k == 0.0) {
-            return None;
+            return false;
         }
         let damped = modes.iter().filter(|mode| mode.d > 0.0).map(Mode::slowest_decay);
         let surfaces = self.guards.iter().filter_map(|guard| guard.recovery).map(|surface| surface.rate);
         let decayed = damped.chain(surfaces).map(|rate| DECAYED / rate).fold(0.0, f64::max);
+        // most flights with damping end before, and need no period
+        if s < decayed {
+            return false;
+        }
         let lasting = modes.iter().filter(|mode| mode.d == 0.0).map(|mode| mode.omega);
-        let rates: Vec<f64> = lasting.chain(self.structure.rates.iter().copied()).collect();
-        let Some(first) = rates.first() else { return Some(decayed) };
+        let rates = || lasting.clone().chain(self.structure.rates.iter().copied());
+        let Some(first) = rates().next() else { return true };
         // in units of the first rate, whose turns are then whole numbers where all rates are commensurable
-        let periods = crate::system::common_period(rates.iter().map(|rate| rate / first))?;
-        Some(decayed + periods * core::f64::consts::TAU / first)
+        crate::system::common_period(rates().map(|rate| rate / first))
+            .is_some_and(|periods| s >= (decayed + periods * core::f64::consts::TAU / first) * (1.0 + 1e-9))
     }
 }

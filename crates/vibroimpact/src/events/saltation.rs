@@ -561,8 +561,8 @@ impl EventDerivative {
 }
 
 /// The derivative of the state at rest, in the structure `rest`, by that before the impact after which stops are at rest: of a chatter
-/// that was summed, after which the forces opened the stops `opened`, or of an impact without rebound. `None` if another guard is zero too, if a contact ends, or after a single impact
-/// if another one changes.
+/// that was summed, after which the forces opened the stops `opened`, or of an impact without rebound. `None` if another guard is zero
+/// too, if a contact ends, or after a single impact if another one changes.
 fn at_rest(
     shape: &StateShape,
     normal: &Normal,
