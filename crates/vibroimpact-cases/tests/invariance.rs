@@ -4,6 +4,7 @@
 
 use core::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
 use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::Stability;
@@ -18,13 +19,29 @@ fn long() -> bool {
     std::env::var("VIBROIMPACT_LONG").is_ok()
 }
 
-/// What is wrong with these machines of each family, which the threads check one after another; told as it is found.
+/// The numbers of the machines of each family: the long form takes 60, or a part of them, as `VIBROIMPACT_LONG=20..40`.
+fn seeds(everyday: Range<u64>) -> Range<u64> {
+    let Ok(asked) = std::env::var("VIBROIMPACT_LONG") else { return everyday };
+    asked.split_once("..").map_or(0..60, |(from, to)| from.parse().unwrap()..to.parse().unwrap())
+}
+
+/// What is wrong with these machines of each family, which the threads check one after another; told as it is found. The long form
+/// tells which machines take long.
 fn in_threads(seeds: Range<u64>, check: impl Fn(&Case) -> Vec<String> + Sync) -> Vec<String> {
     let cases: Vec<Case> = seeds.flat_map(|seed| FAMILIES.iter().map(move |family| family.case(seed))).collect();
     let next = AtomicUsize::new(0);
     let work = || -> Vec<String> {
         let cases = core::iter::from_fn(|| cases.get(next.fetch_add(1, Ordering::Relaxed)));
-        let told = |case| check(case).into_iter().inspect(|wrong| println!("{wrong}")).collect::<Vec<_>>();
+        let told = |case: &Case| {
+            let begin = Instant::now();
+            let wrong = check(case);
+            wrong.iter().for_each(|wrong| println!("{wrong}"));
+            let taken = begin.elapsed();
+            if long() && taken.as_secs() >= 5 {
+                println!("{} {} took {:.0} s", case.family, case.seed, taken.as_secs_f64());
+            }
+            wrong
+        };
         cases.flat_map(told).collect()
     };
     let threads = std::thread::available_parallelism().map_or(1, Into::into);
@@ -39,7 +56,7 @@ fn in_threads(seeds: Range<u64>, check: impl Fn(&Case) -> Vec<String> + Sync) ->
 fn events_do_not_depend_on_names_order_units_and_signs() {
     let budget = Budget { stretches: 40, time: 25.0 };
     let instants = AtomicUsize::new(0);
-    let wrong = in_threads(0..if long() { 60 } else { 2 }, |case| {
+    let wrong = in_threads(seeds(0..2), |case| {
         let standard = Standard::new(case, budget);
         let compared = Rewriting::ALL.map(|change| standard.same_written(case, change, budget));
         let what = |compared| match compared {
@@ -155,7 +172,7 @@ const LONGER: u32 = 4;
 fn verdicts_do_not_depend_on_names_order_units_and_signs() {
     let options = SettleOptions::at_most(if long() { 4000 } else { 1000 });
     // number 0 of `idle` takes longer than all other machines here
-    let wrong = in_threads(if long() { 0..60 } else { 1..3 }, |case| differences(case, &options));
+    let wrong = in_threads(seeds(1..3), |case| differences(case, &options));
     assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
 }
 

@@ -29,8 +29,11 @@ pub(crate) fn text<V: Varied>(answer: &CurveAnswer<'_>, (plan, units): (&CurvePl
 }
 
 fn row(answer: &CurveAnswer<'_>, event: &CurveEventObject<'_>) -> Vec<String> {
-    let CurveEventObject { kind, values: [p, q], point, stop } = *event;
-    let at = stop.map_or_else(String::new, |stop| format!(" at {stop}"));
+    let CurveEventObject { kind, values: [p, q], point, stop, also } = *event;
+    let mut at = stop.map_or_else(String::new, |stop| format!(" at {stop}"));
+    if let Some(other) = also {
+        at += &format!(" and {other}");
+    }
     // at an event itself rounding decides, so the neighbouring points are used
     let around = &answer.points[point.saturating_sub(1)..answer.points.len().min(point + 2)];
     let admissible = around.iter().any(|point| point.admissible);

@@ -461,10 +461,9 @@ impl<'a> EventFields<'a> {
         (before, after): (Label, Option<String>),
         machine: &'a Machine,
     ) -> Self {
-        let (appears, turns, also) = match event {
-            machine::BranchEvent::Grazing { appears, turns, also, .. } => (Some(appears), Some(turns), also),
-            machine::BranchEvent::Corner { first, second } if first != second => (None, None, Some(second)),
-            _ => (None, None, None),
+        let (appears, turns) = match event {
+            machine::BranchEvent::Grazing { appears, turns, .. } => (Some(appears), Some(turns)),
+            _ => (None, None),
         };
         let touch = |place: usize| TouchObject { impact: None, stop: machine.name_of(place), phase: None };
         Self {
@@ -474,7 +473,7 @@ impl<'a> EventFields<'a> {
             stop: event.place().map(|place| machine.name_of(place)),
             appears,
             turns,
-            also: also.map(touch),
+            also: event.also().map(touch),
             ..Self::default()
         }
     }

@@ -86,6 +86,9 @@ pub struct CurveEventObject<'a> {
     /// The stop or joint of a machine.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stop: Option<&'a str>,
+    /// The other stop or joint of a corner, if it is another one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub also: Option<&'a str>,
 }
 
 /// Values of both parameters at a point, in the units of the results.
@@ -131,7 +134,7 @@ impl<'a> CurveAnswer<'a> {
         let of = [plan.vary.parameter, plan.and.parameter];
         let event = |(k, point): (usize, &CurvePoint)| {
             let kind = point.event?.name();
-            Some(CurveEventObject { kind, values: values(point.values, plan, units), point: k, stop: None })
+            Some(CurveEventObject { kind, values: values(point.values, plan, units), point: k, stop: None, also: None })
         };
         let point = |point: &CurvePoint| {
             let there = units.at_both((of[0], of[1]), point.values);
@@ -164,8 +167,8 @@ impl<'a> CurveAnswer<'a> {
     ) -> Self {
         let event = |(k, point): (usize, &machine::CurvePoint)| {
             let event = point.event?;
-            let stop = event.place().map(|place| machine.name_of(place));
-            Some(CurveEventObject { kind: event.name(), values: point.values.into(), point: k, stop })
+            let [stop, also] = [event.place(), event.also()].map(|place| place.map(|place| machine.name_of(place)));
+            Some(CurveEventObject { kind: event.name(), values: point.values.into(), point: k, stop, also })
         };
         let point = |point: &'a machine::CurvePoint| PointObject {
             values: point.values.into(),

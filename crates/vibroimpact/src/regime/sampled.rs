@@ -62,11 +62,17 @@ pub(crate) struct Span {
     pub(crate) guards: Vec<GuardSamples>,
 }
 
+/// What an element of the state adds to the samples of a guard. Rows that begin within a line of the cache would make every
+/// second load of four numbers read two lines.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+struct Row([f64; SAMPLES]);
+
 /// A guard in a span.
 #[derive(Clone, Debug)]
 pub(crate) struct GuardSamples {
     /// Its samples for each element of the state.
-    rows: Vec<[f64; SAMPLES]>,
+    rows: Vec<Row>,
     /// What each mode adds per energy of its free part: to the bound of the second derivative, and to what faint modes can take away.
     bend: Vec<[f64; 2]>,
     /// What each mode without stiffness adds per force.
@@ -266,7 +272,7 @@ impl GuardSamples {
                     }
                     *value = crate::math::dot(&row[..used], &z[..used]);
                 }
-                of_element
+                Row(of_element)
             })
             .collect();
         samples
@@ -277,7 +283,7 @@ impl GuardSamples {
     pub(crate) fn at(&self, z: &[f64], constant: f64, to: &mut [f64; SAMPLES]) {
         let mut samples = [constant; SAMPLES];
         for (row, z) in self.rows.iter().zip(z) {
-            add(&mut samples, *z, row);
+            add(&mut samples, *z, &row.0);
         }
         *to = samples;
     }

@@ -352,11 +352,10 @@ fn f42z_bodies_beside_each_other_have_the_branch_of_one() {
     let events_of = |n: usize| -> Vec<(BranchEvent, f64)> {
         let machine = balls(n, 0.4, 1.2);
         let cycle = settled(&machine, &Start { q: vec![1.0; n], ..Start::default() }).unwrap();
-        let all = events(&traced((&machine, "frequency"), &cycle, (1.0, 1.213), Direction::Up));
-        // a flip of both is none of the product of their multipliers
-        all.into_iter().filter(|(event, _)| *event != BranchEvent::Flip).collect()
+        events(&traced((&machine, "frequency"), &cycle, (1.0, 1.213), Direction::Up))
     };
     let (one, two) = (events_of(1), events_of(2));
+    assert!(one.iter().any(|(event, _)| *event == BranchEvent::Flip));
     assert!(
         matches!(one[0], (BranchEvent::Sticking { stop: 0, begins: false }, at) if (at - 1.209_992_208).abs() < 1e-8)
     );

@@ -204,4 +204,13 @@ impl CurveEvent {
             _ => None,
         }
     }
+
+    /// The other stop or joint of a corner, if it is another one.
+    #[must_use]
+    pub const fn also(&self) -> Option<usize> {
+        match *self {
+            Self::Corner { first, second } if first != second => Some(second),
+            _ => None,
+        }
+    }
 }

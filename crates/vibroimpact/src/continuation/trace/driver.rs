@@ -86,6 +86,11 @@ impl<P: Path> Driver<P> {
         self.over |= full;
     }
 
+    /// The number of points so far.
+    pub(crate) const fn points_so_far(&self) -> u32 {
+        self.count
+    }
+
     fn push(&mut self, point: Option<P::Point>) {
         self.pending.extend(point);
         self.count += 1;

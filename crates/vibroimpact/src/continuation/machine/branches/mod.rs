@@ -5,6 +5,7 @@
 //! | a machine as a function of numbers | [`Family`] |
 //! | the equations of all events, with one or two numbers of the machine among the unknowns | `equations` |
 //! | the test functions of events | `test_functions` |
+//! | multipliers that pass the unit circle together, of which these functions tell nothing | `together` |
 //! | the problem that the tracer solves, admissible solutions | `problem` |
 //! | a point of a branch, and its events | [`SolutionPoint`], [`BranchEvent`] |
 //! | where a tracer begins | `beginning` |
@@ -47,6 +48,7 @@ mod step;
 mod summed;
 mod switch;
 mod test_functions;
+mod together;
 
 pub(crate) use branch::UnreducedBranch;
 pub(crate) use change::{Difference, difference};

@@ -163,6 +163,16 @@ impl BranchEvent {
         }
     }
 
+    /// The other stop or joint of two at the same time, if it is another one.
+    #[must_use]
+    pub const fn also(&self) -> Option<usize> {
+        match *self {
+            Self::Grazing { also, .. } => also,
+            Self::Corner { first, second } if first != second => Some(second),
+            _ => None,
+        }
+    }
+
     /// Whether the branch ends at this event.
     #[must_use]
     pub const fn ends(&self) -> bool {

@@ -48,6 +48,7 @@ impl EventBranch {
             (None, Some(grazing)) => step.crossed.iter().copied().filter(|(s, _)| *s < grazing.s).collect(),
             (None, None) => step.crossed.clone(),
         };
+        let points = self.points_so_far();
         for crossing in crossed {
             if !self.report(&step, crossing) {
                 return;
@@ -58,6 +59,9 @@ impl EventBranch {
         }
         if let Some(Grazing { at, zeros, .. }) = grazing {
             return self.graze(&at, &zeros);
+        }
+        if self.points_so_far() == points {
+            self.pass_together(&step);
         }
         if step.on_end {
             return self.end(&step.there, BranchEvent::EndOfRange);
