@@ -142,8 +142,9 @@ impl Motion<'_> {
             let modes = self.buffers.modes_with_errors(flight, s);
             self.place.keep_gaps(&self.normal, flight, (modes, guards));
         }
-        if let Some(passage) = &mut self.passage {
-            passage.guards = guards.to_vec();
+        let timing = self.passage.is_some().then(|| self.timing(flight, guards));
+        if let (Some(passage), Some(timing)) = (&mut self.passage, timing) {
+            passage.guards = timing;
             passage.before = Some(self.place.clone());
         }
         let structure = &flight.structure;
@@ -153,6 +154,21 @@ impl Motion<'_> {
             [g] => self.happen(&[kind(g)], fastest),
             all => self.happen(&all.iter().map(kind).collect::<Vec<_>>(), fastest),
         }
+    }
+
+    /// The guards whose zero times the event. A gap on which a short flight begins without velocity is zero still, in neighbours too, so
+    /// an impact on another stop at this time does not come earlier or later by it.
+    fn timing(&self, flight: &MachineFlight, guards: &[usize]) -> Vec<usize> {
+        let turns = self.place.turns(&self.normal);
+        let times = |g: &usize| match flight.structure.guards[*g].kind {
+            GuardKind::Gap(j) if flight.begins_exactly(*g) => {
+                let (_, rate) = self.place.gap_and_rate(&self.normal, &turns, j);
+                matches!(self.approach(j, rate), Approach::Strikes)
+            }
+            _ => true,
+        };
+        let timing: Vec<usize> = guards.iter().copied().filter(times).collect();
+        if timing.is_empty() { guards.to_vec() } else { timing }
     }
 
     /// Notes that the gaps of stops are zero which are left faster than by rounding and are within it: after a short flight a gap

@@ -9,6 +9,9 @@
 //!
 //! In turn, the impacts of one round are those of all stops that close, together; so a symmetric structure stays symmetric.
 //! Each round is an impact by Moreau's law, which gains no energy, and the speeds of rounds fall unless the collision ends.
+//! A ball that strikes one at rest on a wall pushes it into the wall, is struck again, and so on: infinitely many impacts whose
+//! speeds fall as a geometric series. They act along the directions of their stops and leave all of these closed, so their sum is one
+//! round without restitution.
 
 use super::impulses::impulses;
 use crate::machine::ImpactLaw;
@@ -21,7 +24,12 @@ const ROUNDINGS: f64 = 16.0;
 /// Velocities that differ by more than this part of the largest one lead elsewhere.
 const ANOTHER: f64 = 1e-9;
 
+/// A stop that has been struck more often, at last more slowly than this part of the fastest, is struck without end.
+const OFTEN: usize = 3;
+const FADED: f64 = 1e-10;
+
 /// The outcome of impacts.
+#[derive(Clone)]
 pub(super) struct Collision {
     /// The velocities after them.
     pub(super) v: Vec<f64>,
@@ -29,6 +37,14 @@ pub(super) struct Collision {
     pub(super) impulses: Vec<f64>,
     /// The stops that push in each round.
     pub(super) rounds: Vec<Vec<usize>>,
+    /// Whether the last round is the sum of impacts without end, after which its stops stay closed.
+    pub(super) ends_still: bool,
+}
+
+impl Collision {
+    fn new(v: &[f64], stops: usize) -> Self {
+        Self { v: v.to_vec(), impulses: vec![0.0; stops], rounds: Vec::new(), ends_still: false }
+    }
 }
 
 /// The impacts on stops with these directions and restitutions, whose gaps have these velocities; `v` are the velocities of
@@ -40,7 +56,7 @@ pub(super) fn collide(
     rates: &[f64],
     restitutions: &[f64],
 ) -> Option<Collision> {
-    let mut collision = Collision { v: v.to_vec(), impulses: vec![0.0; rates.len()], rounds: Vec::new() };
+    let mut collision = Collision::new(v, rates.len());
     let all: Vec<usize> = (0..rates.len()).collect();
     if law == ImpactLaw::Together {
         collision.round(directions, rates, restitutions, &all)?;
@@ -62,7 +78,7 @@ pub(super) fn depends_on_order(
 ) -> bool {
     let size = outcome.v.iter().chain(v).fold(0.0_f64, |most, v| most.max(v.abs()));
     (0..if struck > 1 { struck } else { 0 }).any(|first| {
-        let mut other = Collision { v: v.to_vec(), impulses: vec![0.0; rates.len()], rounds: Vec::new() };
+        let mut other = Collision::new(v, rates.len());
         other.in_turn(directions, v, rates, restitutions, Some(first)).is_none()
             || other.v.iter().zip(&outcome.v).any(|(one, other)| (one - other).abs() > ANOTHER * size)
     })
@@ -78,24 +94,56 @@ impl Collision {
         restitutions: &[f64],
         first: Option<usize>,
     ) -> Option<()> {
+        let mut speeds = vec![Vec::new(); rates.len()];
+        let still = vec![0.0; rates.len()];
+        let given = (directions, v, rates, restitutions);
+        let now = self.rounds(given, first, ROUNDS, &mut speeds)?;
         let size = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
-        let all: Vec<usize> = (0..rates.len()).collect();
+        let fades = |k: &usize| speeds[*k].len() >= OFTEN && speeds[*k].last().is_some_and(|last| *last < FADED * size);
+        let fading: Vec<usize> = (0..rates.len()).filter(fades).collect();
+        if !fading.is_empty() {
+            let ended = |round: &Vec<usize>| round.iter().any(|k| !fading.contains(k));
+            let before = self.rounds.iter().rposition(ended).map_or(0, |last| last + 1);
+            *self = Self::new(v, rates.len());
+            let now = self.rounds(given, first, before, &mut speeds)?;
+            self.round(directions, &now, &still, &fading)?;
+            self.ends_still = true;
+        } else if self.rounds.len() == ROUNDS {
+            // the rest of the collision without restitution, so that it ends
+            let all: Vec<usize> = (0..rates.len()).collect();
+            self.round(directions, &now, &still, &all)?;
+            self.ends_still = true;
+        }
+        Some(())
+    }
+
+    /// So many rounds at most, until no stop closes. Adds the speed of each impact to those of its stop; returns the velocities of the gaps
+    /// after them.
+    fn rounds(
+        &mut self,
+        (directions, v, rates, restitutions): (&[&[f64]], &[f64], &[f64], &[f64]),
+        first: Option<usize>,
+        most: usize,
+        speeds: &mut [Vec<f64>],
+    ) -> Option<Vec<f64>> {
+        let size = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
         let mut now = rates.to_vec();
-        for round in 0..ROUNDS {
+        for round in 0..most {
             let closes = |k: &usize| {
                 // rounding errors of the rate: those of its terms, and of the rates before
                 let terms = directions[*k].iter().zip(&self.v).map(|(w, v)| (w * v).abs()).sum::<f64>();
                 now[*k] < -ROUNDINGS * f64::EPSILON * (size + terms)
             };
-            let mut closing: Vec<usize> = all.iter().copied().filter(closes).collect();
+            let mut closing: Vec<usize> = (0..rates.len()).filter(closes).collect();
             if closing.is_empty() {
-                return Some(());
+                break;
             }
             if round == 0
                 && let Some(first) = first
             {
                 closing.retain(|k| *k == first);
             }
+            closing.iter().for_each(|k| speeds[*k].push(-now[*k]));
             self.round(directions, &now, restitutions, &closing)?;
             // from the change of velocities since the beginning, so that no rounding errors add up from round to round
             for (now, (w, rate)) in now.iter_mut().zip(directions.iter().zip(rates)) {
@@ -103,8 +151,7 @@ impl Collision {
                 *now = rate - w.iter().zip(gained).map(|(w, gained)| w * gained).sum::<f64>();
             }
         }
-        // the rest of the collision without restitution, so that it ends
-        self.round(directions, &now, &vec![0.0; rates.len()], &all)
+        Some(now)
     }
 
     /// The impacts on some of the stops, together.
@@ -164,6 +211,10 @@ mod tests {
         close(row(5, 1.0, ImpactLaw::Together), &[-0.6, 0.4, 0.4, 0.4, 0.4]);
         close(row(3, 1.0, ImpactLaw::InTurn), &[0.0, 0.0, 1.0]);
         close(row(5, 1.0, ImpactLaw::InTurn), &[0.0, 0.0, 0.0, 0.0, 1.0]);
+        // a ball at rest on a wall, which is the last contact, has it pushed into the wall by the first ones for ever
+        let wall: [&[f64]; 2] = [&[1.0, -1.0], &[0.0, 1.0]];
+        let found = collide(ImpactLaw::InTurn, &wall, &[1.0, 0.0], &[-1.0, 0.0], &[0.0, 0.5]).unwrap();
+        assert!(found.v == [0.0, 0.0] && found.rounds == [[0, 1]] && found.ends_still, "{:?}", found.v);
         // restitution 1/2: binary impacts 1/4, 3/4, and again, until none closes
         let found = row(3, 0.5, ImpactLaw::InTurn);
         close(found, &[0.203_125, 0.234_375, 0.562_5]);

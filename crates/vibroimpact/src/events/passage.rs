@@ -31,6 +31,8 @@ pub(crate) struct Passage {
     pub(crate) pushed: Vec<(usize, f64)>,
     /// The number of these in each round of impacts in turn; empty if all push together.
     pub(crate) rounds: Vec<usize>,
+    /// Whether the last round is the sum of impacts without end.
+    pub(crate) ends_still: bool,
     /// The impulses of rigid stops, without those of a chatter that was summed.
     pub(crate) blows: Vec<Blow>,
     /// The state after the event.
@@ -48,6 +50,7 @@ impl Passage {
             before: None,
             pushed: Vec::new(),
             rounds: Vec::new(),
+            ends_still: false,
             blows: Vec::new(),
             after: None,
             rest: None,

@@ -339,20 +339,22 @@ impl EventLaw<'_> {
         (flow_before, jump_of_all): (&[f64], &[f64]),
         structure: &mut dyn FnMut(&[ContactState]) -> Option<Arc<Structure>>,
     ) -> Option<Vec<Vec<f64>>> {
-        let mut shares = Vec::with_capacity(self.guards.len());
+        let groups = self.groups(normal, states);
+        let mut shares = vec![Vec::new(); self.guards.len()];
         // each guard as if the others were not zero
-        for k in 0..self.guards.len() {
-            shares.push(self.share(shape, normal, states, (flow_before, &[k]), structure)?);
+        for group in &groups {
+            for k in &group.guards {
+                shares[*k] = self.share(shape, normal, states, (flow_before, &[*k], group), structure)?;
+            }
         }
-        let groups = self.groups(normal, states.0.surfaces.len());
         let mut left = jump_of_all.to_vec();
         let mut sizes: Vec<f64> = jump_of_all.iter().map(|jump| jump.abs()).collect();
         for group in &groups {
             // if all act on each other, the whole change is theirs; one alone has been computed
-            let mut own = match &group[..] {
+            let mut own = match &group.guards[..] {
                 _ if groups.len() == 1 => left.clone(),
                 [alone] => shares[*alone].clone(),
-                several => self.share(shape, normal, states, (flow_before, several), structure)?,
+                several => self.share(shape, normal, states, (flow_before, several, group), structure)?,
             };
             // what no group explains is left for all
             if groups.len() > 1 {
@@ -362,9 +364,9 @@ impl EventLaw<'_> {
                 left.fill(0.0);
             }
             // what the group does together beyond what its members do alone
-            group.iter().for_each(|k| add_scaled(&mut own, -1.0, &shares[*k]));
-            let part = 1.0 / count(group);
-            group.iter().for_each(|k| add_scaled(&mut shares[*k], part, &own));
+            group.guards.iter().for_each(|k| add_scaled(&mut own, -1.0, &shares[*k]));
+            let part = 1.0 / count(&group.guards);
+            group.guards.iter().for_each(|k| add_scaled(&mut shares[*k], part, &own));
         }
         left.iter_mut().zip(sizes).for_each(|(left, size)| *left = unless_rounding(*left, size));
         let part = 1.0 / count(&shares);
@@ -372,24 +374,29 @@ impl EventLaw<'_> {
         Some(shares)
     }
 
-    /// The change of the flow if only these of the guards were zero.
+    /// The change of the flow if only these guards of a group were zero.
     fn share(
         &self,
         shape: &StateShape,
         normal: &Normal,
         (before, after): (&Place, &Place),
-        (flow_before, members): (&[f64], &[usize]),
+        (flow_before, members, group): (&[f64], &[usize], &Group),
         structure: &mut dyn FnMut(&[ContactState]) -> Option<Arc<Structure>>,
     ) -> Option<Vec<f64>> {
         let stops = before.surfaces.len();
         let contact = |k: &usize| self.structure.guards[self.guards[*k]].kind.place(stops);
-        let contacts: Vec<usize> = members.iter().map(contact).collect();
+        let mut contacts: Vec<usize> = members.iter().map(contact).collect();
         let others: Vec<usize> =
             (0..self.guards.len()).map(|k| contact(&k)).filter(|j| !contacts.contains(j)).collect();
+        // what else changes in the group, as a joint whose sliding an impact reverses, is changed by all its guards together
+        if members.len() == group.guards.len() {
+            contacts.clone_from(&group.contacts);
+        }
         let guards: Vec<usize> = members.iter().map(|k| self.guards[*k]).collect();
         // an impulse of another guard would be that guard's part
         let of_round = |round: &[(usize, f64)]| {
-            round.iter().copied().filter(|(j, _)| !others.contains(j)).collect::<Vec<(usize, f64)>>()
+            let own = |j: &usize| group.contacts.contains(j) && !others.contains(j);
+            round.iter().copied().filter(|(j, _)| own(j)).collect::<Vec<(usize, f64)>>()
         };
         let rounds: Vec<Vec<(usize, f64)>> = self.in_rounds().map(of_round).collect();
         let counts: Vec<usize> = rounds.iter().map(Vec::len).collect();
@@ -415,11 +422,13 @@ impl EventLaw<'_> {
         Some(own.jump(shape, normal, (before, &reached), (flow_before, &next), (&reset, &rate)))
     }
 
-    /// The guards that act on each other by impulses, as places in the list of guards: their directions are not at right angles, or
-    /// those of contacts between them that push or hold are not.
-    fn groups(&self, normal: &Normal, stops: usize) -> Vec<Vec<usize>> {
+    /// The guards that act on each other by impulses: their directions are not at right angles, or those of contacts between them
+    /// that push, hold or change are not.
+    fn groups(&self, normal: &Normal, (before, after): (&Place, &Place)) -> Vec<Group> {
+        let stops = before.surfaces.len();
         let guards = self.guards.iter().map(|g| self.structure.guards[*g].kind.place(stops));
-        let between = self.pushed.iter().map(|(j, _)| *j).chain(self.structure.held.iter().copied());
+        let changed = (0..before.states.len()).filter(|at| before.states[*at] != after.states[*at]);
+        let between = self.pushed.iter().map(|(j, _)| *j).chain(self.structure.held.iter().copied()).chain(changed);
         let contacts: Vec<usize> = guards.chain(between).collect();
         let act = |i: usize, j: usize| {
             let (a, b) = (&normal.directions[contacts[i]], &normal.directions[contacts[j]]);
@@ -433,10 +442,20 @@ impl EventLaw<'_> {
             others.push(with.into_iter().flatten().chain([k]).collect());
             groups = others;
         }
-        groups.iter_mut().for_each(|group| group.retain(|k| *k < self.guards.len()));
-        groups.retain(|group| !group.is_empty());
-        groups
+        let group = |of: Vec<usize>| Group {
+            contacts: of.iter().map(|k| contacts[*k]).collect(),
+            guards: of.into_iter().filter(|k| *k < self.guards.len()).collect(),
+        };
+        groups.into_iter().map(group).filter(|group| !group.guards.is_empty()).collect()
     }
+}
+
+/// Guards that act on each other.
+struct Group {
+    /// Their places in the list of guards.
+    guards: Vec<usize>,
+    /// Their contacts and those between them.
+    contacts: Vec<usize>,
 }
 
 /// Directions act on each other if the cosine between them is larger.

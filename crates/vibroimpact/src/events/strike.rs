@@ -40,17 +40,20 @@ impl Motion<'_> {
         let law = self.machine.parts().impacts;
         let outcome = collide(law, &directions, &self.place.v, &rates, &restitutions)?;
         self.tie = depends_on_order(&outcome, &directions, &self.place.v, &rates, &restitutions, struck.len());
-        let Collision { v: mut after, impulses: found, rounds } = outcome;
+        let Collision { v: mut after, impulses: found, rounds, ends_still } = outcome;
+        let still = |k: usize| ends_still && rounds.last().is_some_and(|last| last.contains(&k));
         self.place.jolt();
         let size = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
         // with the velocities of the law; in rounds a stop may be struck again and open more slowly than after its own impact
         let alone = rounds.len() == 1;
         let mut stays = Vec::new();
-        for ((j, before, e), (w, impulse)) in set.iter().zip(directions.iter().zip(&found)) {
+        for (k, ((j, before, e), (w, impulse))) in set.iter().zip(directions.iter().zip(&found)).enumerate() {
             let rate = before - (dot(w, &after) - dot(w, &self.place.v));
             candidates.retain(|candidate| candidate != j);
             // a stop that was pushed opens with the velocity of the law, exactly 0 without restitution
-            let opens = if *impulse > 0.0 && alone {
+            let opens = if still(k) {
+                false
+            } else if *impulse > 0.0 && alone {
                 e * before < 0.0
             } else {
                 let terms = w.iter().zip(&after).map(|(w, v)| (w * v).abs()).sum::<f64>();
@@ -72,8 +75,13 @@ impl Motion<'_> {
         self.place.v = after;
         if let Some(passage) = &mut self.passage {
             let pushing = set.iter().zip(&found).filter(|(_, impulse)| **impulse > 0.0);
-            let push = |k: &usize| (set[*k].0, set[*k].2);
-            passage.pushed = rounds.iter().flatten().map(push).collect();
+            let of_round = |(r, round): (usize, &Vec<usize>)| {
+                let without = ends_still && r + 1 == rounds.len();
+                let push = |k: &usize| (set[*k].0, if without { 0.0 } else { set[*k].2 });
+                round.iter().map(push).collect::<Vec<_>>()
+            };
+            passage.pushed = rounds.iter().enumerate().flat_map(of_round).collect();
+            passage.ends_still = ends_still;
             passage.rounds = if alone { Vec::new() } else { rounds.iter().map(Vec::len).collect() };
             passage.blows = pushing
                 .map(|((j, rate, _), impulse)| Blow { stop: *j, speed: (-rate).max(0.0), impulse: *impulse })

@@ -45,8 +45,8 @@ pub use find::{FindOptions, find, find_while};
 pub use free::without_impacts;
 pub use label::{Count, Label, LabelError};
 pub(crate) use machine::{
-    Chatter, MachineBlock, MachineFrame, MachineLap, MachineRing, Rebound, RingEvent, events_of, flying, near_returns,
-    passing, rounding_decides,
+    Chatter, MachineBlock, MachineFrame, MachineLap, MachineRing, Push, Rebound, RingEvent, events_of, flying,
+    near_returns, passing, rounding_decides,
 };
 pub use machine::{find_machine_while, find_unreduced};
 pub use one_impact::{OneImpact, one_impact};

@@ -8,7 +8,7 @@
 //! both. With still more impacts the times between them would only be less exact.
 
 use super::frame::MachineFrame;
-use super::ring::{MachineRing, RingEvent};
+use super::ring::{MachineRing, Push, RingEvent};
 use crate::events::Place;
 use crate::machine::StopLaw;
 use crate::regime::{ContactState, GuardKind};
@@ -28,12 +28,12 @@ impl RingEvent {
 
     /// The stop on which a rest begins here instead of the impacts of a chatter that follow.
     pub(crate) fn rests_on(&self) -> Option<usize> {
-        self.struck().filter(|_| self.pushed[0].1)
+        self.struck().filter(|_| self.pushed[0].1 == Push::Summed)
     }
 
     /// The stop of an impact with a rebound.
     fn rebounds_from(&self) -> Option<usize> {
-        self.struck().filter(|_| !self.pushed[0].1)
+        self.struck().filter(|_| self.pushed[0].1 == Push::Rebounds)
     }
 }
 
@@ -179,7 +179,7 @@ impl Chatter {
         ring.places[self.rest].states.clone_from(&open);
         let event = &mut ring.events[self.rest];
         event.after = open;
-        event.pushed.iter_mut().for_each(|(_, rests)| *rests = false);
+        event.pushed.iter_mut().for_each(|(_, push)| *push = Push::Rebounds);
         let miss = ring.miss(frame, before)?;
         // the residual is the difference between the rebound and the rest that the state was at
         let wanted = frame.shape.values(&ring.places[self.rest]);

@@ -2,7 +2,7 @@
 //! machine.
 
 use super::frame::MachineFrame;
-use super::ring::{MachineBlock, MachineRing, RingEvent};
+use super::ring::{MachineBlock, MachineRing, Push, RingEvent};
 use crate::events::{ByNumber, EventLaw, LinearEvent, LinearGuard, Place, standing_back};
 use crate::machine::{MachineParts, StopLaw};
 use crate::math::{Matrix, add_scaled, dot};
@@ -131,8 +131,11 @@ impl MachineRing {
             StopLaw::Rigid { restitution } => restitution,
             StopLaw::Compliant { .. } => 0.0,
         };
-        let pushed: Vec<(usize, f64)> =
-            event.pushed.iter().map(|(j, still)| (*j, if *still { 0.0 } else { restitution(*j) })).collect();
+        let pushed: Vec<(usize, f64)> = event
+            .pushed
+            .iter()
+            .map(|(j, push)| (*j, if *push == Push::Rebounds { restitution(*j) } else { 0.0 }))
+            .collect();
         let beside = Beside::all(frame, &structure, (&guards, &pushed));
         // the cycle closes here
         let drifts = next == 0 && !frame.normal.translations.is_empty();
@@ -248,7 +251,7 @@ impl RingFlight<'_> {
         let gap = |own: &Beside| by.guard(&self.timed_by(&[own.guard]), &self.before, &flown);
         let gaps: Vec<f64> = self.beside.iter().map(gap).collect::<Option<_>>()?;
         let moved = moved_onto(&self.beside, frame, &gaps);
-        let summed = |j: usize| self.event.pushed.iter().any(|(of, summed)| *of == j && *summed);
+        let summed = |j: usize| self.event.pushed.iter().any(|(of, push)| *of == j && *push != Push::Rebounds);
         let mut after = by.after(&law, &summed, (&self.before, &self.after), flown)?;
         add_scaled(&mut after.x, 1.0, &moved);
         let surfaces = frame.shape.surfaces.iter().map(|j| after.surfaces[*j]);

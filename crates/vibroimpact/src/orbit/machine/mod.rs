@@ -43,5 +43,5 @@ pub(crate) use lap::MachineLap;
 pub(crate) use near_returns::near_returns;
 pub(crate) use of_motion::events_of;
 pub(crate) use reduced::flying;
-pub(crate) use ring::{MachineBlock, MachineRing, RingEvent};
+pub(crate) use ring::{MachineBlock, MachineRing, Push, RingEvent};
 pub(crate) use rounding::rounding_decides;

@@ -43,12 +43,23 @@ pub(crate) struct RingEvent {
     pub(crate) with: Vec<GuardKind>,
     /// The states of all stops and joints after it.
     pub(crate) after: Vec<ContactState>,
-    /// The rigid stops that push, and whether the rebound is taken away because a chatter is summed.
-    pub(crate) pushed: Vec<(usize, bool)>,
+    /// The rigid stops that push, and how.
+    pub(crate) pushed: Vec<(usize, Push)>,
     /// The number of these in each round of impacts in turn; empty if all push together.
     pub(crate) rounds: Vec<usize>,
     /// The stops whose surfaces stand back after it.
     pub(crate) back: Vec<bool>,
+}
+
+/// How a rigid stop pushes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Push {
+    /// With its restitution.
+    Rebounds,
+    /// Without: impacts in turn follow each other without end at this time.
+    Still,
+    /// Without: a chatter is summed.
+    Summed,
 }
 
 impl RingEvent {
@@ -68,11 +79,17 @@ impl RingEvent {
         let after = passage.after.as_ref()?;
         let kind = |guard: &usize| passage.structure.guards.get(*guard).map(|guard| guard.kind);
         let (first, others) = passage.guards.split_first()?;
+        let last = passage.pushed.len() - passage.rounds.last().copied().unwrap_or(passage.pushed.len());
+        let push = |k: usize| match (passage.rest.is_some(), passage.ends_still && k >= last) {
+            (true, _) => Push::Summed,
+            (false, true) => Push::Still,
+            (false, false) => Push::Rebounds,
+        };
         Some(Self {
             guard: kind(first)?,
             with: others.iter().filter_map(kind).collect(),
             after: after.states.clone(),
-            pushed: passage.pushed.iter().map(|(j, _)| (*j, passage.rest.is_some())).collect(),
+            pushed: passage.pushed.iter().enumerate().map(|(k, (j, _))| (*j, push(k))).collect(),
             rounds: passage.rounds.clone(),
             back: after.surfaces.iter().map(Option::is_some).collect(),
         })

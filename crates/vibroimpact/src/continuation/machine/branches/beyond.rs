@@ -19,8 +19,8 @@ use crate::continuation::trace::tracer::{Tracer, last};
 use crate::events::Place;
 use crate::machine::{Machine, Opening, StopLaw};
 use crate::math::sort_by;
-use crate::orbit::{Chatter, MachineFrame, MachineRing, RingEvent, machine::Cycle, passing};
-use crate::regime::{ContactState, GuardKind};
+use crate::orbit::{Chatter, MachineFrame, MachineRing, Push, RingEvent, machine::Cycle, passing};
+use crate::regime::{ContactState, GuardKind, independent};
 
 /// The tracer beyond a point where these test functions of gaps are zero; `None` if none is found.
 pub(super) fn through_grazing(
@@ -87,6 +87,8 @@ fn first_step(
     })
 }
 
+/// New impacts whose phases differ by less are at one time.
+const AT_ONCE: f64 = 1e-7;
 /// The phase of a contact that lasts for no time, to rounding: its equation is divided by its duration.
 const INSTANT: f64 = 1e-6;
 
@@ -106,8 +108,15 @@ fn appearing(
     // from the last to the first, so that the places of earlier events stay valid
     sort_by(&mut new, |a, b| b.2.phase.total_cmp(&a.2.phase));
     let mut next = ring.clone();
-    for (leg, stop, place) in &new {
-        insert_contact(&frame, &mut next, (leg + 1, *stop), place)?;
+    let rigid = |stop: usize| matches!(machine.stops()[stop].law, StopLaw::Rigid { .. });
+    let at_once = |one: &(usize, usize, Place), other: &(usize, usize, Place)| {
+        one.0 == other.0 && (one.2.phase - other.2.phase).abs() < AT_ONCE && rigid(one.1) && rigid(other.1)
+    };
+    for group in new.chunk_by(at_once) {
+        let (leg, _, place) = &group[0];
+        let mut stops: Vec<usize> = group.iter().map(|(_, stop, _)| *stop).collect();
+        stops.sort_unstable();
+        insert_contact(&frame, &mut next, (leg + 1, &stops), place)?;
     }
     for (_, stop, _) in &new {
         next.set_surface(&frame, *stop)?;
@@ -119,7 +128,7 @@ fn appearing(
     let width = frame.shape.size() + 1;
     let mut row = vec![0.0; w.len()];
     for (_, stop, place) in &new {
-        let index = (0..ring.len()).find(|k| ring.places[*k].phase == place.phase)?;
+        let index = (0..ring.len()).find(|k| (ring.places[*k].phase - place.phase).abs() < AT_ONCE)?;
         if ring.contact(index).is_some() {
             // towards a longer contact
             row[index * width] -= 1.0;
@@ -135,18 +144,24 @@ fn appearing(
     first_step(&problem, &w, &along, options)
 }
 
-/// Inserts an impact of speed zero, or a contact that lasts for no time, as event `index` at a state on the flight before.
+/// Inserts an impact of speed zero on these rigid stops at once, or a contact with a compliant one that lasts for no time, as event
+/// `index` at a state on the flight before.
 fn insert_contact(
     frame: &MachineFrame<'_>,
     ring: &mut MachineRing,
-    (index, stop): (usize, usize),
+    (index, stops): (usize, &[usize]),
     place: &Place,
 ) -> Option<()> {
     let (machine, open) = (frame.machine, &place.states);
     let back: Vec<bool> = place.surfaces.iter().map(Option::is_some).collect();
+    let (&stop, others) = stops.split_first()?;
     let StopLaw::Compliant { opening, damping, preload, .. } = machine.stops()[stop].law else {
         let event = RingEvent::touch(GuardKind::Gap(stop), open, back);
-        ring.insert(index, RingEvent { pushed: vec![(stop, false)], ..event }, place.clone());
+        let with = others.iter().map(|other| GuardKind::Gap(*other)).collect();
+        // of several stops at one place only the first one pushes
+        let directions = stops.iter().map(|stop| frame.normal.directions[*stop].as_slice());
+        let pushed = independent(directions).into_iter().map(|k| (stops[k], Push::Rebounds)).collect();
+        ring.insert(index, RingEvent { with, pushed, ..event }, place.clone());
         return Some(());
     };
     let by_position = opening == Opening::Position || damping == 0.0 || preload > 0.0 && !back[stop];

@@ -2,7 +2,7 @@
 
 use super::point::BranchEvent;
 use super::problem::Judged;
-use crate::orbit::{MachineRing, RingEvent};
+use crate::orbit::{MachineRing, Push, RingEvent};
 use crate::regime::{ContactState, GuardKind};
 
 /// The first difference between the events of a signature and those of a motion beside it.
@@ -153,7 +153,11 @@ pub(crate) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
             }
             Some(place) => Difference::Other { place: Some(place) },
             // a chatter that is summed after another number of impacts
-            None => Difference::Rest { place: own, joint: false, begins: found.pushed.iter().any(|(_, still)| *still) },
+            None => Difference::Rest {
+                place: own,
+                joint: false,
+                begins: found.pushed.iter().any(|(_, push)| *push == Push::Summed),
+            },
         };
     }
     let other = found.guard.place(stops);

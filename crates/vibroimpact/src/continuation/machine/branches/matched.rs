@@ -58,6 +58,7 @@ pub(crate) fn matched(wanted: &[(f64, &RingEvent)], seen: &[(f64, RingEvent)]) -
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::orbit::Push;
     use crate::regime::{ContactState, GuardKind};
 
     fn impact(still: bool) -> RingEvent {
@@ -67,7 +68,7 @@ mod tests {
             with: Vec::new(),
             rounds: Vec::new(),
             after,
-            pushed: vec![(0, still)],
+            pushed: vec![(0, if still { Push::Summed } else { Push::Rebounds })],
             back: vec![false],
         }
     }

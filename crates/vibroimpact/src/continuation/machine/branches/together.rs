@@ -20,7 +20,9 @@ impl EventBranch {
     /// Reports the flip, branch point or torus bifurcation at which several multipliers pass the unit circle together on a step
     /// without another bifurcation.
     pub(super) fn pass_together(&mut self, step: &Step<Judged>) {
-        let (Some(before), Some(after)) = (outside(&self.tracer.here.known), outside(&step.there.known)) else { return };
+        let (Some(before), Some(after)) = (outside(&self.tracer.here.known), outside(&step.there.known)) else {
+            return;
+        };
         // the largest of those that pass
         let rank = before.min(after);
         let off = |known: &Judged| Some(sorted(&known.multipliers).get(rank)?.modulus() - 1.0);
