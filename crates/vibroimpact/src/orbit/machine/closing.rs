@@ -6,7 +6,7 @@ use super::frame::MachineFrame;
 use super::lap::MachineLap;
 use super::rounding::rounding_decides;
 use crate::events::Place;
-use crate::math::{Lu, Matrix, Multiplier, dot};
+use crate::math::{Lu, Matrix, Multiplier, change_along, dot};
 
 /// The largest number of steps of Newton's method; from a good guess four or five are needed.
 const MAX_STEPS: u32 = 30;
@@ -21,6 +21,8 @@ const CLOSED: f64 = 1e-10;
 /// A multiplier besides that along the motion that is this near to 1 is 1 to rounding: the cycle is one of a family, as those
 /// of machines that lose no energy.
 const FAMILY: f64 = 1e-9;
+/// Newton's equations are singular to rounding if they ask for a step that is longer than the miss by this factor.
+const SINGULAR: f64 = 1e8;
 /// A period that differs by more, relative to it, is another one.
 const OTHER: f64 = 0.25;
 /// States that differ by less, relative to the motion, are the same.
@@ -112,10 +114,10 @@ fn closed(frame: &MachineFrame<'_>, from: &Place, mut time: f64) -> Option<(Plac
     let mut best: Option<(f64, Place, MachineLap)> = None;
     let mut before = f64::INFINITY;
     for step in 0..MAX_STEPS {
-        let lap = MachineLap::fly(frame, &begin, time)?;
-        if lap.end.states != begin.states {
-            return None;
-        }
+        // what ends the iteration leaves the best lap so far: of a family of cycles the equations are singular, and a step can lead anywhere
+        let Some(lap) = MachineLap::fly(frame, &begin, time).filter(|lap| lap.end.states == begin.states) else {
+            break;
+        };
         let residual = frame.distance(&begin, &lap.end, lap.sizes);
         let (end, derivative, sizes) = (lap.end.clone(), lap.derivative.clone(), lap.sizes);
         let holding = lap.holding();
@@ -129,21 +131,22 @@ fn closed(frame: &MachineFrame<'_>, from: &Place, mut time: f64) -> Option<(Plac
             break;
         }
         if !residual.is_finite() || step >= PATIENCE && residual > HOPELESS {
-            return None;
+            break;
         }
         if step.is_multiple_of(PATIENCE) {
             let least = best.as_ref().map_or(residual, |(least, ..)| *least);
             if least > CLOSED && least > SLOW * before {
-                return None;
+                break;
             }
             before = least;
         }
-        let (change, longer) = newton(frame, (&begin, &end), (derivative?, &holding), sizes)?;
+        let change = derivative.and_then(|derivative| newton(frame, (&begin, &end), (derivative, &holding), sizes));
+        let Some((change, longer)) = change else { break };
         let next: Vec<f64> = frame.shape.values(&begin).iter().zip(&change).map(|(from, by)| from + by).collect();
         begin = frame.shape.with_values(&begin, &next);
         time += longer;
         if !(time > 0.0 && time.is_finite()) {
-            return None;
+            break;
         }
     }
     let (residual, begin, lap) = best?;
@@ -192,7 +195,15 @@ fn newton(
         system[(states, states)] = 0.0;
         change.push(0.0);
     }
-    Lu::new(system.values().to_vec(), unknowns)?.solve(&mut change);
+    let missed = change.clone();
+    let solved = Lu::new(system.values().to_vec(), unknowns).map(|lu| lu.solve(&mut change));
+    let far = |of: &[f64]| of.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    // of a family of cycles the nearest one: the equations do not say which
+    if solved.is_none() || !(far(&change) <= SINGULAR * far(&missed)) {
+        change.fill(0.0);
+        let rows: Vec<(&[f64], f64)> = (0..unknowns).map(|i| (system.row(i), missed[i])).collect();
+        change_along(&rows, &mut change);
+    }
     let longer = if unknowns > states { change.pop()? } else { 0.0 };
     Some((change, longer))
 }

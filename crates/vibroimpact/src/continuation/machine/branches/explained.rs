@@ -30,12 +30,16 @@ impl Tally {
         let mut all = vec![Self::default(); ring.events.first().map_or(0, |event| event.after.len())];
         for (k, event) in ring.events.iter().enumerate() {
             let before = &ring.events[(k + m - 1) % m].after;
-            if let GuardKind::Gap(stop) = event.guard
-                && !event.touches(before)
-                && !summed.contains(&k)
-                && event.rests_on().is_none()
-            {
-                all[stop].closings += 1;
+            // of stops at one place only one closes
+            let closes =
+                |stop: usize| event.pushed.iter().any(|(j, _)| *j == stop) || event.after[stop] != before[stop];
+            let with = event.with.iter().filter(|kind| closes(kind.place(stops)));
+            if !event.touches(before) && !summed.contains(&k) && event.rests_on().is_none() {
+                for kind in core::iter::once(&event.guard).chain(with) {
+                    if let GuardKind::Gap(stop) = *kind {
+                        all[stop].closings += 1;
+                    }
+                }
             }
             for (place, (now, then)) in event.after.iter().zip(before).enumerate() {
                 let slides = |state: &ContactState| matches!(state, ContactState::Forward | ContactState::Backward);
