@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::Stability;
+use vibroimpact::orbit::{Stability, machine::Cycle};
 use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 use vibroimpact_cases::{Budget, Case, FAMILIES, Rewriting, Standard, changed, rounded};
 
@@ -176,6 +176,36 @@ fn verdicts_do_not_depend_on_names_order_units_and_signs() {
     assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
 }
 
+fn told(case: &Case, change: Rewriting, what: &str) -> String {
+    format!("{} {} {change:?}: {what}", case.family, case.seed)
+}
+
+/// How the moduli of the multipliers of two cycles differ if their events have the same phases: then they are one cycle.
+fn other_multipliers((one, other): (&Verdict<Machine>, &Verdict<Machine>), twice: bool) -> Option<String> {
+    let (Verdict::Periodic(one), Verdict::Periodic(other)) = (one, other) else { return None };
+    let sorted = |mut values: Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        values
+    };
+    let phases = |cycle: &Cycle| sorted(cycle.events.iter().map(|event| event.phase).collect());
+    let moduli = |cycle: &Cycle| sorted(cycle.multipliers.iter().map(|multiplier| multiplier.modulus()).collect());
+    let near = |one: &[f64], other: &[f64]| {
+        let other: Vec<f64> = other.iter().copied().step_by(if twice { 2 } else { 1 }).collect();
+        one.len() == other.len()
+            && one.iter().zip(other).all(|(a, b)| *a == b || (a - b).abs() < NEAR * (1.0 + a.abs()))
+    };
+    let (own, theirs) = (moduli(one), moduli(other));
+    // without forcing that along the motion is left out, of both parts together
+    if theirs.len() != if twice { 2 } else { 1 } * own.len() {
+        return None;
+    }
+    let same = near(&phases(one), &phases(other));
+    (same && !near(&own, &theirs)).then(|| format!("multipliers {theirs:?} instead of {own:?}"))
+}
+
+/// Multipliers and phases of one cycle differ by less.
+const NEAR: f64 = 1e-5;
+
 /// The writings of a case whose verdict differs from its own by more than rounding errors explain.
 fn differences(case: &Case, options: &SettleOptions) -> Vec<String> {
     let (verdict, standard) = settled((&case.machine, &case.start), options);
@@ -186,15 +216,20 @@ fn differences(case: &Case, options: &SettleOptions) -> Vec<String> {
     for change in Rewriting::ALL {
         let again = changed(case, change);
         let (again, twice) = ((&again.machine, &again.start), change == Rewriting::Twice);
-        let verdict = label(&settled(again, options).1, twice);
-        if verdict == standard || neutral && verdict == "undecided" {
+        let (motion, verdict_again) = settled(again, options);
+        let verdict_again = label(&verdict_again, twice);
+        if verdict_again == standard {
+            wrong.extend(other_multipliers((&verdict, &motion), twice).map(|what| told(case, change, &what)));
+        }
+        if verdict_again == standard || neutral && verdict_again == "undecided" {
             continue;
         }
+        let verdict = verdict_again;
         let undecided = verdict == "undecided" || standard == "undecided";
         // a few roundings cost less than a longer motion
         let few = others.are_of_a_rounding(&verdict, FEW);
         if !(few || undecided && others.need_more(again, twice) || others.are_of_a_rounding(&verdict, ROUNDED)) {
-            wrong.push(format!("{} {} {change:?}: {verdict} instead of {standard}", case.family, case.seed));
+            wrong.push(told(case, change, &format!("{verdict} instead of {standard}")));
         }
     }
     wrong

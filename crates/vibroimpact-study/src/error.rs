@@ -74,7 +74,7 @@ pub enum PlanError {
     NumberWithoutLabel,
     /// The motion from the start of a branch is not periodic.
     #[error(
-        "the motion from the start is `{0}`, not periodic, so no branch begins there\nhint: give the label of an orbit, or another start"
+        "the motion from the start is `{0}`, no cycle of events, so no branch begins there\nhint: give the label of an orbit, or another start"
     )]
     NotPeriodic(String),
     /// No orbit of a machine with a label was found.

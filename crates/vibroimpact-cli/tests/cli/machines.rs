@@ -592,7 +592,7 @@ fn figures() {
 fn refusals_of_questions() {
     for (line, said) in [
         ("orbit --machine sdnd101 --label 1/1", "error: label `1/1` is not m/T"),
-        ("branch --machine sdnd101 --vary stop.stop.gap --to 1", "not periodic, so no branch begins there"),
+        ("branch --machine sdnd101 --vary stop.stop.gap --to 1", "no cycle of events, so no branch begins there"),
         ("orbit --machine two-mass-hammer --label one", "error: "),
         (
             "basin --machine two-mass-hammer --axis q.tail=0:1:3",

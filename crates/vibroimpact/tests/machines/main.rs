@@ -21,6 +21,8 @@ mod curves_unforced;
 #[cfg(test)]
 mod drift;
 #[cfg(test)]
+mod equal_parts;
+#[cfg(test)]
 mod exponents;
 #[cfg(test)]
 mod limit_cycles;

@@ -7,6 +7,7 @@ use super::lap::MachineLap;
 use super::rounding::rounding_decides;
 use crate::events::Place;
 use crate::math::{Lu, Matrix, Multiplier, change_along, dot};
+use core::f64::consts::TAU;
 
 /// The largest number of steps of Newton's method; from a good guess four or five are needed.
 const MAX_STEPS: u32 = 30;
@@ -33,8 +34,17 @@ impl Cycle {
     /// which a free translation leaves as it is; `None` if it does not converge, if it rests and rounding errors decide its period,
     /// or without forcing.
     pub(crate) fn near(frame: &MachineFrame<'_>, from: &Place, n: u32) -> Option<Self> {
-        let time = frame.machine.period()? * f64::from(n);
-        let (begin, lap, residual) = closed(frame, from, time)?;
+        let period = frame.machine.period()?;
+        let time = period * f64::from(n);
+        let (mut begin, mut lap, mut residual) = closed(frame, from, time)?;
+        // without events it is the same motion wherever it begins
+        if let ([], [(_, _, passage)]) = (&lap.events[..], &lap.steps[..]) {
+            let structure = passage.structure.clone();
+            begin = frame.moved(&begin, &structure, (1.0 - begin.phase / TAU) * period);
+            begin.phase = 0.0;
+            lap = MachineLap::fly(frame, &begin, time)?;
+            residual = frame.distance(&begin, &lap.end, lap.sizes);
+        }
         Self::shortest(frame, (&begin, n), &lap, residual)
     }
 
