@@ -97,7 +97,7 @@ impl Collision {
         let mut speeds = vec![Vec::new(); rates.len()];
         let still = vec![0.0; rates.len()];
         let given = (directions, v, rates, restitutions);
-        let now = self.rounds(given, first, ROUNDS, &mut speeds)?;
+        let now = self.follow(given, first, ROUNDS, &mut speeds)?;
         let size = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
         let fades = |k: &usize| speeds[*k].len() >= OFTEN && speeds[*k].last().is_some_and(|last| *last < FADED * size);
         let fading: Vec<usize> = (0..rates.len()).filter(fades).collect();
@@ -105,7 +105,7 @@ impl Collision {
             let ended = |round: &Vec<usize>| round.iter().any(|k| !fading.contains(k));
             let before = self.rounds.iter().rposition(ended).map_or(0, |last| last + 1);
             *self = Self::new(v, rates.len());
-            let now = self.rounds(given, first, before, &mut speeds)?;
+            let now = self.follow(given, first, before, &mut speeds)?;
             self.round(directions, &now, &still, &fading)?;
             self.ends_still = true;
         } else if self.rounds.len() == ROUNDS {
@@ -119,7 +119,7 @@ impl Collision {
 
     /// So many rounds at most, until no stop closes. Adds the speed of each impact to those of its stop; returns the velocities of the gaps
     /// after them.
-    fn rounds(
+    fn follow(
         &mut self,
         (directions, v, rates, restitutions): (&[&[f64]], &[f64], &[f64], &[f64]),
         first: Option<usize>,
