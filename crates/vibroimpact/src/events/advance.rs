@@ -24,6 +24,8 @@ const SEVERAL: u32 = 2;
 const STALLED: u32 = 300;
 /// More events than this at one time are a collapse.
 const CROWD: u32 = 10_000;
+/// Guards that are zero within this time, in radians of the fastest rate, are zero at one time.
+const TOGETHER: f64 = 1e-9;
 /// The number of windows of a flight after which it is asked whether there is an event at all.
 const PATIENCE: u32 = 512;
 
@@ -153,6 +155,34 @@ impl Motion<'_> {
         match guards {
             [g] => self.happen(&[kind(g)], fastest),
             all => self.happen(&all.iter().map(kind).collect::<Vec<_>>(), fastest),
+        }
+        if self.recording {
+            self.time_by_released(flight, fastest);
+        }
+    }
+
+    /// Adds the guards of forces that reach their limits with those that were found, within rounding errors: a contact that ends with
+    /// others, as one of equal parts, ends at its own time in neighbours.
+    fn time_by_released(&mut self, flight: &MachineFlight, fastest: f64) {
+        let Some(passage) = &mut self.passage else { return };
+        let (Some(before), Some(after)) = (&passage.before, &passage.after) else { return };
+        if !passage.pushed.is_empty() {
+            return;
+        }
+        let structure = &flight.structure;
+        let stops = before.surfaces.len();
+        let timed: Vec<usize> = passage.guards.iter().map(|g| structure.guards[*g].kind.place(stops)).collect();
+        for (g, guard) in structure.guards.iter().enumerate() {
+            let at = guard.kind.place(stops);
+            let ends = before.states[at].constrains() && !after.states[at].constrains() && !timed.contains(&at);
+            let is_force = !matches!(guard.kind, GuardKind::Gap(_) | GuardKind::Depth(_) | GuardKind::Sliding(_));
+            if !(ends && is_force) {
+                continue;
+            }
+            let (value, rate) = before.flight(&self.normal, structure.clone()).first(&guard.function);
+            if rate < 0.0 && value.abs() * fastest <= TOGETHER * -rate {
+                passage.guards.push(g);
+            }
         }
     }
 

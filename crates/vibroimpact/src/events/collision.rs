@@ -28,8 +28,16 @@ const ANOTHER: f64 = 1e-9;
 const OFTEN: usize = 3;
 const FADED: f64 = 1e-10;
 
+/// Stops and the structure before their impacts: the velocities of the structure and of the gaps, and the restitutions.
+#[derive(Clone, Copy)]
+struct Struck<'a> {
+    directions: &'a [&'a [f64]],
+    v: &'a [f64],
+    rates: &'a [f64],
+    restitutions: &'a [f64],
+}
+
 /// The outcome of impacts.
-#[derive(Clone)]
 pub(super) struct Collision {
     /// The velocities after them.
     pub(super) v: Vec<f64>,
@@ -62,7 +70,7 @@ pub(super) fn collide(
         collision.round(directions, rates, restitutions, &all)?;
         return Some(collision);
     }
-    collision.in_turn(directions, v, rates, restitutions, None)?;
+    collision.in_turn(Struck { directions, v, rates, restitutions }, None)?;
     Some(collision)
 }
 
@@ -79,25 +87,18 @@ pub(super) fn depends_on_order(
     let size = outcome.v.iter().chain(v).fold(0.0_f64, |most, v| most.max(v.abs()));
     (0..if struck > 1 { struck } else { 0 }).any(|first| {
         let mut other = Collision::new(v, rates.len());
-        other.in_turn(directions, v, rates, restitutions, Some(first)).is_none()
+        other.in_turn(Struck { directions, v, rates, restitutions }, Some(first)).is_none()
             || other.v.iter().zip(&outcome.v).any(|(one, other)| (one - other).abs() > ANOTHER * size)
     })
 }
 
 impl Collision {
     /// Impacts in turn, of all stops that close or of one stop first, until none closes.
-    fn in_turn(
-        &mut self,
-        directions: &[&[f64]],
-        v: &[f64],
-        rates: &[f64],
-        restitutions: &[f64],
-        first: Option<usize>,
-    ) -> Option<()> {
+    fn in_turn(&mut self, struck: Struck<'_>, first: Option<usize>) -> Option<()> {
+        let Struck { directions, v, rates, .. } = struck;
         let mut speeds = vec![Vec::new(); rates.len()];
         let still = vec![0.0; rates.len()];
-        let given = (directions, v, rates, restitutions);
-        let now = self.follow(given, first, ROUNDS, &mut speeds)?;
+        let now = self.follow(struck, first, ROUNDS, &mut speeds)?;
         let size = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
         let fades = |k: &usize| speeds[*k].len() >= OFTEN && speeds[*k].last().is_some_and(|last| *last < FADED * size);
         let fading: Vec<usize> = (0..rates.len()).filter(fades).collect();
@@ -105,7 +106,7 @@ impl Collision {
             let ended = |round: &Vec<usize>| round.iter().any(|k| !fading.contains(k));
             let before = self.rounds.iter().rposition(ended).map_or(0, |last| last + 1);
             *self = Self::new(v, rates.len());
-            let now = self.follow(given, first, before, &mut speeds)?;
+            let now = self.follow(struck, first, before, &mut speeds)?;
             self.round(directions, &now, &still, &fading)?;
             self.ends_still = true;
         } else if self.rounds.len() == ROUNDS {
@@ -121,7 +122,7 @@ impl Collision {
     /// after them.
     fn follow(
         &mut self,
-        (directions, v, rates, restitutions): (&[&[f64]], &[f64], &[f64], &[f64]),
+        Struck { directions, v, rates, restitutions }: Struck<'_>,
         first: Option<usize>,
         most: usize,
         speeds: &mut [Vec<f64>],

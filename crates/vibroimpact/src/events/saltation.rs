@@ -398,14 +398,14 @@ impl EventLaw<'_> {
             let own = |j: &usize| group.contacts.contains(j) && !others.contains(j);
             round.iter().copied().filter(|(j, _)| own(j)).collect::<Vec<(usize, f64)>>()
         };
-        let rounds: Vec<Vec<(usize, f64)>> = self.in_rounds().map(of_round).collect();
+        let rounds = self.in_rounds().map(of_round).filter(|round| !round.is_empty());
+        let rounds: Vec<Vec<(usize, f64)>> = rounds.collect();
         let counts: Vec<usize> = rounds.iter().map(Vec::len).collect();
-        let in_turn = !self.rounds.is_empty() && members.len() > 1;
         let own = EventLaw {
             structure: self.structure,
             guards: &guards,
             pushed: &rounds.concat(),
-            rounds: if in_turn { &counts } else { &[] },
+            rounds: if self.rounds.is_empty() { &[] } else { &counts },
         };
         // the state that these guards alone would lead to: their impulses, their new contacts
         let mut reached = before.clone();
@@ -591,7 +591,10 @@ fn at_rest(
     let (before, after) = (passage.before.as_ref()?, passage.after.as_ref()?);
     let rests = |j: usize| after.states[j].constrains() && !before.states[j].constrains() || opened.contains(&j);
     let guard = |g: &usize| passage.structure.guards[*g].kind;
-    let lands = |g: &usize| matches!(guard(g), GuardKind::Gap(j) if rests(j));
+    // of stops at one place only one rests, and keeps the others closed
+    let held = Orthonormal::spanning(rest.held.iter().chain(opened).map(|at| &normal.directions[*at]));
+    let lands =
+        |g: &usize| matches!(guard(g), GuardKind::Gap(j) if rests(j) || held.beside(&normal.directions[j]).is_none());
     let zero = |at: usize| passage.guards.iter().any(|g| guard(g).place(before.surfaces.len()) == at);
     let stays = before.states.iter().zip(&after.states).enumerate().all(|(at, (was, now))| match passage.rest {
         Some(_) => now.constrains() || !was.constrains(),

@@ -136,6 +136,57 @@ fn stops_at_one_place_and_equal_parts_have_the_branch_of_one() {
     }
 }
 
+/// A number of one of two equal parts takes their impacts, which are at one time at the beginning, apart: the branch stopped there and
+/// said that this was the end of its range.
+#[test]
+fn a_number_of_one_part_leads_on() {
+    let cycle = settled(&hammers(2, 1), &Start::default()).unwrap();
+    for (path, range, direction, end) in [
+        ("stop.anvil1_0.gap", (0.4, 0.5), Direction::Down, 0.4),
+        ("stop.anvil0_0.gap", (0.5, 0.55), Direction::Up, 0.55),
+        ("stop.anvil0_0.restitution", (0.6, 0.7), Direction::Up, 0.7),
+    ] {
+        let points = traced((&hammers(2, 1), path), &cycle, range, direction);
+        assert_eq!(events(&points), [(BranchEvent::EndOfRange, end)], "{path}");
+        // the other part moves as before
+        let (first, last) = (moduli(&cycle), moduli(&points.last().unwrap().cycle));
+        assert!(
+            last.iter().any(|of| (of - first[0]).abs() < 1e-8) && last.iter().any(|of| (of - first[0]).abs() > 1e-4)
+        );
+    }
+}
+
+/// Elastic balls in a row beside another row: impacts in turn of one row have the derivative of that row alone. Of the second one all
+/// rounds were one, and the product of its multipliers was a quarter of what Liouville's formula gives.
+#[test]
+fn impacts_in_turn_of_equal_parts_have_the_multipliers_of_one() {
+    let rows = |count: usize| {
+        let n = 3 * count;
+        let mut parts = MachineParts::new((0..n).map(|k| format!("x{k}"))).with_frequency(0.7);
+        parts.impacts = ImpactLaw::InTurn;
+        let unit = |k: usize, sign: f64| (0..n).map(move |i| if i == k { sign } else { 0.0 });
+        for k in 0..n {
+            parts = parts.with_mass(k, 1.0).with_link(&unit(k, 1.0).collect::<Vec<_>>(), 1.0, 0.2);
+        }
+        for row in 0..count {
+            parts = parts.with_force(3 * row, 1, 0.0, 1.0);
+            for k in 3 * row..3 * row + 2 {
+                let along: Vec<f64> = unit(k, 1.0).zip(unit(k + 1, 1.0)).map(|(a, b)| a - b).collect();
+                parts = parts.with_rigid_stop(&format!("s{k}"), &along, 0.0, 1.0);
+            }
+        }
+        let start = Start { q: vec![0.0; n], ..Start::default() };
+        moduli(&settled(&Machine::new(parts).unwrap(), &start).unwrap())
+    };
+    let (one, two) = (rows(1), rows(2));
+    assert!(
+        (one[0] - 0.793_593).abs() < 1e-6
+            && (one[0] * one[3] - (-0.2 * core::f64::consts::TAU / 0.7).exp()).abs() < 1e-6
+    );
+    let twice: Vec<f64> = one.iter().flat_map(|of| [*of, *of]).collect();
+    close(&two, &twice, 1e-9);
+}
+
 /// A particle in a cage that it never touches stays where friction takes it: its motions are a family of cycles, which was undecided,
 /// because Newton's equations are singular there.
 #[test]

@@ -209,7 +209,8 @@ fn newton(
     let solved = Lu::new(system.values().to_vec(), unknowns).map(|lu| lu.solve(&mut change));
     let far = |of: &[f64]| of.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
     // of a family of cycles the nearest one: the equations do not say which
-    if solved.is_none() || !(far(&change) <= SINGULAR * far(&missed)) {
+    let is_regular = solved.is_some() && far(&change) <= SINGULAR * far(&missed);
+    if !is_regular {
         change.fill(0.0);
         let rows: Vec<(&[f64], f64)> = (0..unknowns).map(|i| (system.row(i), missed[i])).collect();
         change_along(&rows, &mut change);

@@ -211,6 +211,8 @@ fn disappearing(
 
 /// How far beyond a change the motion is followed, in the scale of the number: little, so that no other event lies between.
 const BESIDE: [f64; 5] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
+/// The number of these at which events can have come apart at the beginning of a branch.
+const APART: usize = 3;
 /// The same where a rest on a stop begins or ends: the numbers at which a chatter gets one more impact accumulate there.
 const BESIDE_REST: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-2];
 
@@ -231,6 +233,25 @@ pub(super) fn replayed(
         motion.beside(tracer, (by, options), other)
     });
     first_continuing(found)
+}
+
+/// The cycle a little beyond the beginning of a branch where events that happen together there come apart, as the impacts of equal
+/// parts of which only one changes.
+pub(super) fn apart(
+    tracer: &Tracer<MachineProblem>,
+    up: f64,
+    options: &BranchOptions,
+) -> Option<Tracer<MachineProblem>> {
+    let (at, ring) = (&tracer.here, &tracer.problem.equations.ring);
+    if ring.events.iter().all(|event| event.with.is_empty()) {
+        return None;
+    }
+    let motion = LastMotion::of(tracer, at)?;
+    let other = |next: &MachineRing| !same_in_turn(&next.events, &ring.events);
+    let steps = BESIDE.into_iter().take(APART);
+    steps
+        .filter_map(|by| motion.beside(tracer, (by * up, options), other))
+        .find_map(|(next, continues)| continues.then_some(next))
 }
 
 /// The first that continues the motion, or else the first.

@@ -1,7 +1,7 @@
 //! The branch of a cycle of a machine in one of its numbers.
 
 use super::beginning::begun;
-use super::beyond::{across, replayed, same_beyond, through_grazing, with_ring};
+use super::beyond::{across, apart, replayed, same_beyond, through_grazing, with_ring};
 use super::change::Difference;
 use super::complete_chatter::{ADAPTED, CompleteChatter};
 use super::equations::MachineEquations;
@@ -116,7 +116,12 @@ impl UnreducedBranch {
             let problem = MachineProblem::new(&frame, equations, (*range.start(), *range.end()), cycle.sizes);
             let up = if direction == Direction::Up { 1.0 } else { -1.0 };
             let tracer = begun(problem, &w, value, up, options)?;
-            Driver::new(EventPath { options, passed: Vec::new() }, tracer, options.points)
+            let next = apart(&tracer, up, &options);
+            let mut driver = Driver::new(EventPath { options, passed: Vec::new() }, tracer, options.points)?;
+            if let Some(next) = next {
+                driver.exchange(next);
+            }
+            Some(driver)
         };
         begin().map(Self).ok_or(BranchError::NoCycle)
     }
