@@ -187,6 +187,34 @@ fn impacts_in_turn_of_equal_parts_have_the_multipliers_of_one() {
     close(&two, &twice, 1e-9);
 }
 
+/// Where the only impacts of equal parts have no speed, at one time, the motion without impacts follows: the branch ended there without
+/// convergence.
+#[test]
+fn impacts_of_equal_parts_are_lost_together() {
+    let masses = |count: usize| {
+        let mut parts = MachineParts::new((0..count).map(|k| format!("x{k}"))).with_frequency(1.5);
+        for k in 0..count {
+            let mut own = vec![0.0; count];
+            own[k] = 1.0;
+            let stop = format!("s{k}");
+            parts = parts.with_mass(k, 1.0).with_link(&own, 1.0, 0.1).with_force(k, 1, 0.0, 1.0);
+            parts = parts.with_rigid_stop(&stop, &own, 0.2, 0.5);
+        }
+        Machine::new(parts).unwrap()
+    };
+    let end = |count: usize| {
+        let machine = masses(count);
+        let cycle = settled(&machine, &Start::default()).unwrap();
+        let found = events(&traced((&machine, "frequency"), &cycle, (1.5, 2.5), Direction::Up));
+        found.into_iter().find(|(event, _)| event.place().is_some()).unwrap()
+    };
+    let one = end(1);
+    assert!(matches!(one.0, BranchEvent::Grazing { stop: 0, appears: false, .. }));
+    for (event, at) in [end(2), end(3)] {
+        assert!(matches!(event, BranchEvent::LossOfContact { stop: 0 }) && (at - one.1).abs() < 1e-7, "{event:?} {at}");
+    }
+}
+
 /// A particle in a cage that it never touches stays where friction takes it: its motions are a family of cycles, which was undecided,
 /// because Newton's equations are singular there.
 #[test]

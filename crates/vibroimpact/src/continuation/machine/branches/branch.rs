@@ -136,11 +136,13 @@ impl Iterator for UnreducedBranch {
 }
 
 impl EventBranch {
-    /// The stop of the only impact of a cycle, if this impact disappears.
+    /// The stop of the only impact of a cycle, if this impact disappears; of several at one time, as of equal parts, that of the first.
     fn lost(&self, at: &MachineSolution, found: &Difference) -> Option<usize> {
-        let Difference::Disappears { stop, .. } = *found else { return None };
-        let single = at.known.cycle.as_ref().is_some_and(|cycle| cycle.counts.iter().sum::<u32>() == 1);
-        (single && self.tracer.problem.equations.ring.len() <= 2).then_some(stop)
+        let Difference::Disappears { at: event, stop } = *found else { return None };
+        let ring = &self.tracer.problem.equations.ring;
+        let together = u32::try_from(ring.events.get(event)?.pushed.len().max(1)).ok()?;
+        let closings = at.known.cycle.as_ref()?.counts.iter().sum::<u32>();
+        (closings == together && ring.len() <= 2).then_some(stop)
     }
 
     /// Ends the branch if the structure rests for ever right beyond; returns whether it does.
