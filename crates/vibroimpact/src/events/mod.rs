@@ -13,6 +13,7 @@
 //! | a whole state as a start, and back | [`ContactStart`], `state` |
 //! | which stops rest and which joints hold | `resolve` |
 //! | one step of a motion, and its derivatives by the state and by a number | `passage`, `saltation`, `by_number`, `event_by_number` |
+//! | which of the guards that are zero at an event time it | `timing` |
 //! | differences of neighbouring motions, and how they are stretched | `tangents` |
 //! | the motion as an iterator over its events | [`Motion`] |
 //! | what it does between two events | [`Stretches`], `stretch` |
@@ -46,6 +47,7 @@ mod stretch;
 mod stretches;
 mod strike;
 mod tangents;
+mod timing;
 mod within;
 
 pub(crate) use by_number::ByNumber;
