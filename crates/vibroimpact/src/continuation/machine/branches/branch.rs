@@ -5,13 +5,14 @@ use super::beyond::{across, apart, replayed, same_beyond, through_grazing, with_
 use super::change::Difference;
 use super::complete_chatter::{ADAPTED, CompleteChatter};
 use super::equations::MachineEquations;
-use super::explained::explained;
+use super::explained::{explained, told};
 use super::family::Family;
 use super::meeting::meeting;
 use super::point::{BranchEvent, SolutionPoint};
 use super::problem::{Judged, MachineProblem, MachineSolution};
 use super::rest_for_ever::rest_for_ever;
 use super::step::{NEARBY, off_circle};
+use super::summed::same_in_turn;
 use super::test_functions::TestFunction;
 use crate::continuation::branches::{BranchError, BranchOptions, Direction, scale};
 use crate::continuation::trace::driver::{Driver, Path, PathEvent};
@@ -29,6 +30,8 @@ pub(super) struct EventPath {
     options: BranchOptions,
     /// The changes of the events so far. At the second one of a kind the branch is closed.
     passed: Vec<Passed>,
+    /// The signatures so far, with the number at which each was left, and whether the number rose there.
+    left: Vec<(MachineRing, f64, bool)>,
 }
 
 pub(super) type EventBranch = Driver<EventPath>;
@@ -117,7 +120,8 @@ impl UnreducedBranch {
             let up = if direction == Direction::Up { 1.0 } else { -1.0 };
             let tracer = begun(problem, &w, value, up, options)?;
             let next = apart(&tracer, up, &options);
-            let mut driver = Driver::new(EventPath { options, passed: Vec::new() }, tracer, options.points)?;
+            let mut driver =
+                Driver::new(EventPath { options, passed: Vec::new(), left: Vec::new() }, tracer, options.points)?;
             if let Some(next) = next {
                 driver.exchange(next);
             }
@@ -255,11 +259,31 @@ impl EventBranch {
             return self.end(at, BranchEvent::Closed);
         }
         self.path.passed.push(now);
+        self.path.left.push((self.tracer.problem.equations.ring.clone(), now.number, now.rises));
         self.add(at, Some(event));
+        if self.goes_back(&next, now.number) {
+            return self.end(at, BranchEvent::NoConvergence);
+        }
         self.exchange(next);
         self.add(&self.tracer.here.clone(), landing);
     }
 }
+
+impl EventBranch {
+    /// Whether another tracer goes back along what has been followed: with events that were left at the same number, in the other
+    /// direction.
+    fn goes_back(&self, next: &Tracer<MachineProblem>, number: f64) -> bool {
+        let (ring, rises) = (&next.problem.equations.ring, last(&next.here.tangent) > 0.0);
+        let near = AGAIN * self.tracer.problem.equations.scales[0];
+        let same = |(left, at, rose): &(MachineRing, f64, bool)| {
+            *rose != rises && (at - number).abs() < near && same_in_turn(&told(left), &told(ring))
+        };
+        self.path.left.iter().any(same)
+    }
+}
+
+/// Numbers that differ by less, in their scale, are those of one change of the events.
+const AGAIN: f64 = 1e-6;
 
 /// The event where the branch goes on, if the motion there does not continue the one before.
 fn landing(continues: bool) -> Option<BranchEvent> {

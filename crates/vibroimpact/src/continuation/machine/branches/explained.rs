@@ -81,7 +81,7 @@ fn closest_pair(ring: &MachineRing, joint: Option<usize>) -> Option<(usize, usiz
 }
 
 /// The guards of all events and the states after them, without touches and without those of complete chatters.
-fn told(ring: &MachineRing) -> Vec<(GuardKind, &[ContactState])> {
+pub(super) fn told(ring: &MachineRing) -> Vec<(GuardKind, &[ContactState])> {
     let m = ring.len();
     let summed = summed(ring);
     let tells = |k: &usize| !summed.contains(k) && !ring.events[*k].touches(&ring.events[(k + m - 1) % m].after);
