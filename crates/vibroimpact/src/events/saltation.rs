@@ -592,9 +592,11 @@ fn at_rest(
     let rests = |j: usize| after.states[j].constrains() && !before.states[j].constrains() || opened.contains(&j);
     let guard = |g: &usize| passage.structure.guards[*g].kind;
     // of stops at one place only one rests, and keeps the others closed
-    let held = Orthonormal::spanning(rest.held.iter().chain(opened).map(|at| &normal.directions[*at]));
-    let lands =
-        |g: &usize| matches!(guard(g), GuardKind::Gap(j) if rests(j) || held.beside(&normal.directions[j]).is_none());
+    let is_kept = |j: usize| {
+        let held = rest.held.iter().chain(opened).map(|at| &normal.directions[*at]);
+        Orthonormal::spanning(held).beside(&normal.directions[j]).is_none()
+    };
+    let lands = |g: &usize| matches!(guard(g), GuardKind::Gap(j) if rests(j) || is_kept(j));
     let zero = |at: usize| passage.guards.iter().any(|g| guard(g).place(before.surfaces.len()) == at);
     let stays = before.states.iter().zip(&after.states).enumerate().all(|(at, (was, now))| match passage.rest {
         Some(_) => now.constrains() || !was.constrains(),

@@ -15,6 +15,10 @@ impl Motion<'_> {
     /// The guards whose zero times the event. A gap on which a short flight begins without velocity is zero still, in neighbours too, so
     /// an impact on another stop at this time does not come earlier or later by it.
     pub(super) fn timing(&self, flight: &MachineFlight, guards: &[usize]) -> Vec<usize> {
+        // one alone does
+        if guards.len() == 1 {
+            return guards.to_vec();
+        }
         let turns = self.place.turns(&self.normal);
         let times = |g: &usize| match flight.structure.guards[*g].kind {
             GuardKind::Gap(j) if flight.begins_exactly(*g) => {

@@ -124,7 +124,8 @@ fn closed(frame: &MachineFrame<'_>, from: &Place, mut time: f64) -> Option<(Plac
     let mut best: Option<(f64, Place, MachineLap)> = None;
     let mut before = f64::INFINITY;
     for step in 0..MAX_STEPS {
-        // what ends the iteration leaves the best lap so far: of a family of cycles the equations are singular, and a step can lead anywhere
+        // what ends the iteration leaves the best lap so far: of a family of cycles the equations are singular, and a step can lead
+        // anywhere
         let Some(lap) = MachineLap::fly(frame, &begin, time).filter(|lap| lap.end.states == begin.states) else {
             break;
         };

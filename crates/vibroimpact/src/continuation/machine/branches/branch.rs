@@ -30,16 +30,16 @@ pub(super) struct EventPath {
     options: BranchOptions,
     /// The changes of the events so far. At the second one of a kind the branch is closed.
     passed: Vec<Passed>,
-    /// The signatures so far, with the number at which each was left, and whether the number rose there.
-    left: Vec<(MachineRing, f64, bool)>,
 }
 
 pub(super) type EventBranch = Driver<EventPath>;
 
 /// A change of the events on a branch.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Passed {
     number: f64,
+    /// The signature before it.
+    ring: MachineRing,
     unknowns: usize,
     rises: bool,
     event: BranchEvent,
@@ -120,8 +120,7 @@ impl UnreducedBranch {
             let up = if direction == Direction::Up { 1.0 } else { -1.0 };
             let tracer = begun(problem, &w, value, up, options)?;
             let next = apart(&tracer, up, &options);
-            let mut driver =
-                Driver::new(EventPath { options, passed: Vec::new(), left: Vec::new() }, tracer, options.points)?;
+            let mut driver = Driver::new(EventPath { options, passed: Vec::new() }, tracer, options.points)?;
             if let Some(next) = next {
                 driver.exchange(next);
             }
@@ -249,7 +248,9 @@ impl EventBranch {
             None if landing.is_none() => return self.exchange(next),
             explained => explained.unwrap_or(event),
         };
-        let now = Passed { number: last(&at.w), unknowns: at.w.len(), rises: last(&at.tangent) > 0.0, event };
+        let ring = self.tracer.problem.equations.ring.clone();
+        let (number, unknowns, rises) = (last(&at.w), at.w.len(), last(&at.tangent) > 0.0);
+        let now = Passed { number, ring, unknowns, rises, event };
         let near = 1e-9 * self.tracer.problem.equations.scales[0];
         let same = |other: &Passed| {
             (other.number - now.number).abs() < near
@@ -259,9 +260,8 @@ impl EventBranch {
             return self.end(at, BranchEvent::Closed);
         }
         self.path.passed.push(now);
-        self.path.left.push((self.tracer.problem.equations.ring.clone(), now.number, now.rises));
         self.add(at, Some(event));
-        if self.goes_back(&next, now.number) {
+        if self.goes_back(&next, number) {
             return self.end(at, BranchEvent::NoConvergence);
         }
         self.exchange(next);
@@ -275,10 +275,12 @@ impl EventBranch {
     fn goes_back(&self, next: &Tracer<MachineProblem>, number: f64) -> bool {
         let (ring, rises) = (&next.problem.equations.ring, last(&next.here.tangent) > 0.0);
         let near = AGAIN * self.tracer.problem.equations.scales[0];
-        let same = |(left, at, rose): &(MachineRing, f64, bool)| {
-            *rose != rises && (at - number).abs() < near && same_in_turn(&told(left), &told(ring))
+        let same = |passed: &Passed| {
+            passed.rises != rises
+                && (passed.number - number).abs() < near
+                && same_in_turn(&told(&passed.ring), &told(ring))
         };
-        self.path.left.iter().any(same)
+        self.path.passed.iter().any(same)
     }
 }
 
