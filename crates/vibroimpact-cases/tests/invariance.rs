@@ -200,6 +200,11 @@ fn other_multipliers((one, other): (&Verdict<Machine>, &Verdict<Machine>), twice
         return None;
     }
     let same = near(&phases(one), &phases(other));
+    // where a rounding error becomes as large within one period as what is compared here, multipliers are not known
+    if own.iter().chain(&theirs).any(|modulus| modulus * f64::EPSILON > NEAR / 100.0) {
+        let stable = |cycle: &Cycle| cycle.stability();
+        return (stable(one) != stable(other)).then(|| format!("{:?} instead of {:?}", stable(other), stable(one)));
+    }
     (same && !near(&own, &theirs)).then(|| format!("multipliers {theirs:?} instead of {own:?}"))
 }
 
@@ -294,13 +299,20 @@ fn columns_collapse_to_rest_in_any_writing() {
 fn impacts_that_fade_away_have_one_verdict_in_any_writing() {
     let family = vibroimpact_cases::DrawnFamily::named("idle").unwrap();
     let options = SettleOptions::at_most(4000);
-    for seed in [3, 6, 19] {
-        let case = family.case(seed);
+    let fading = [3, 6, 19].map(|seed| family.case(seed));
+    // nothing says when a body that touches its stops without a load is at rest: one writing ended with `search limit`
+    let touching = vibroimpact_cases::DrawnFamily::named("chains").unwrap().case(53);
+    for case in fading.into_iter().chain([touching]) {
         let rewritten = Rewriting::ALL.map(|change| changed(&case, change)).map(|again| (again.machine, again.start));
         let writings = rewritten.into_iter().chain((0..if long() { ROUNDED } else { 10 }).map(|k| rounded(&case, k)));
         for (k, (machine, start)) in writings.chain([(case.machine.clone(), case.start.clone())]).enumerate() {
             let verdict = settle_machine(&machine, &start, &options).unwrap().verdict;
-            assert!(matches!(verdict, Verdict::NoImpact(last) if last.fades()), "{seed}, writing {k}: {machine:?}");
+            assert!(
+                matches!(verdict, Verdict::NoImpact(last) if last.fades()),
+                "{} {}, writing {k}: {machine:?}",
+                case.family,
+                case.seed
+            );
         }
     }
 }

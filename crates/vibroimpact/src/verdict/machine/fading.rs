@@ -4,6 +4,9 @@
 //! take for ever, as at the top of its swing: the energy above that of the swing that only touches the stop falls with each
 //! impact, until it is a rounding error. From there on rounding errors decide whether a swing reaches the stop: the impacts
 //! end, or go on at the speed to which a rounding error of the gap leads. Both motions are the same, and so is the verdict.
+//!
+//! Where bodies touch stops without any load, all speeds fall together and nothing says when they are zero: a motion that is a
+//! rounding error of what it was has faded away.
 
 use crate::events::{Event, EventKind, Place};
 use crate::machine::{Machine, StopLaw};
@@ -17,6 +20,10 @@ const STEPS: u32 = 16;
 /// Motions that differ by less, relative to the velocity, differ by some rounding errors in the energy.
 const CLOSE: f64 = 3e-7;
 
+/// A motion this much slower than it was is one of rounding errors of some hundred events, which are taken away one coordinate after
+/// another.
+const GONE: f64 = 1e3 * f64::EPSILON;
+
 /// A state of the motion, after which it is compared with the one without events.
 #[derive(Clone, Debug)]
 struct Begin {
@@ -27,10 +34,12 @@ struct Begin {
     rate: f64,
 }
 
-/// Whether the motion differs from one without events.
+/// Whether the motion differs from one without events, and from rest.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Fading {
     begin: Option<Begin>,
+    /// The largest speed of the motion.
+    largest: f64,
 }
 
 impl Fading {
@@ -45,8 +54,13 @@ impl Fading {
                 return false;
             }
         }
-        let fades = self.begin.as_ref().is_some_and(|begin| begin.goes_on(frame, place, time));
+        let mut fades = self.begin.as_ref().is_some_and(|begin| begin.goes_on(frame, place, time));
         let rate = frame.open().and_then(|open| open.slowest());
+        if let Some(rate) = rate {
+            let speed = speed(place, rate);
+            fades |= speed < GONE * self.largest;
+            self.largest = self.largest.max(speed);
+        }
         self.begin = rate.map(|rate| Begin { place: place.clone(), time, steps: 0, rate });
         fades
     }
@@ -65,10 +79,15 @@ impl Begin {
     fn goes_on(&self, frame: &MachineFrame<'_>, place: &Place, time: f64) -> bool {
         let Some(structure) = frame.structure(&self.place.states) else { return false };
         let moved = frame.moved(&self.place, &structure, time - self.time);
-        let way = self.rate * self.rate * dot(&place.x, &place.x);
-        let speed = (dot(&place.v, &place.v) + way).sqrt();
+        let speed = speed(place, self.rate);
         frame.distance(&moved, place, (speed / self.rate, speed)) < CLOSE
     }
+}
+
+/// The speed of a motion at this rate: of a swing through rest the largest one.
+fn speed(place: &Place, rate: f64) -> f64 {
+    let way = rate * rate * dot(&place.x, &place.x);
+    (dot(&place.v, &place.v) + way).sqrt()
 }
 
 /// Whether anything in a machine takes energy.

@@ -213,6 +213,9 @@ impl Recorded<'_> {
         // a rounding error grows by this logarithm in each period
         let growth = crate::math::ln(cycle.multipliers.iter().map(|one| one.modulus()).fold(0.0, f64::max));
         let periods = crate::math::ln(NEAR / f64::EPSILON) / growth;
+        if periods >= f64::from(PERIODS) {
+            return false;
+        }
         let mut place = real.clone();
         (0..PERIODS).take_while(|k| f64::from(*k) < periods).all(|_| {
             let Some(lap) = MachineLap::fly(&self.frame, &place, cycle.period) else { return false };
@@ -220,7 +223,7 @@ impl Recorded<'_> {
             place = Place { phase: place.phase, ..lap.end };
             let apart = |strobe| self.frame.distance(strobe, &place, cycle.sizes);
             cycle.strobes.iter().map(apart).fold(f64::INFINITY, f64::min) <= AT_ROUNDING
-        }) && periods < f64::from(PERIODS)
+        })
     }
 }
 
