@@ -6,7 +6,7 @@ use super::place::Place;
 use crate::arc::{Found, MachineFlight, first_event};
 use crate::machine::StopLaw;
 use crate::math::{add_scaled, dot};
-use crate::regime::{ContactState, GuardKind, Normal, Orthonormal, Structure};
+use crate::regime::{ContactState, GuardKind, Normal, Orthonormal, Structure, independent};
 
 /// A chatter is summed if its first correction is below this part of the sum.
 const SMALL: f64 = 1e-6;
@@ -209,8 +209,10 @@ impl Motion<'_> {
             return None;
         }
         let before = core::mem::replace(&mut self.place, there).states;
-        // the state at rest is that after impacts without rebound
-        self.record(&stops.iter().map(|j| (*j, 0.0)).collect::<Vec<_>>());
+        // the state at rest is that after impacts without rebound; of stops at one place only the first one pushes
+        let directions = stops.iter().map(|stop| self.normal.directions[*stop].as_slice());
+        let pushed: Vec<(usize, f64)> = independent(directions).into_iter().map(|k| (stops[k], 0.0)).collect();
+        self.record(&pushed);
         if let Some(passage) = &mut self.passage {
             passage.rest = Some((flight.structure.clone(), duration));
         }
