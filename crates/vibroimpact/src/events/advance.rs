@@ -155,7 +155,7 @@ impl Motion<'_> {
             all => self.happen(&all.iter().map(kind).collect::<Vec<_>>(), fastest),
         }
         if self.recording {
-            self.time_by_released(flight, fastest);
+            self.time_by_others(flight, fastest);
         }
     }
 

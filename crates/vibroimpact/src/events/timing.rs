@@ -31,9 +31,9 @@ impl Motion<'_> {
         if timing.is_empty() { guards.to_vec() } else { timing }
     }
 
-    /// Adds the guards of forces that reach their limits with those that were found, within rounding errors: a contact that ends with
-    /// others, as one of equal parts, ends at its own time in neighbours.
-    pub(super) fn time_by_released(&mut self, flight: &MachineFlight, fastest: f64) {
+    /// Adds the guards of contacts that change with those that were found, within rounding errors: forces that reach their limits, and
+    /// velocities of joints that are zero. What one of equal parts does it does at its own time in neighbours.
+    pub(super) fn time_by_others(&mut self, flight: &MachineFlight, fastest: f64) {
         let Some(passage) = &mut self.passage else { return };
         let (Some(before), Some(after)) = (&passage.before, &passage.after) else { return };
         if !passage.pushed.is_empty() {
@@ -44,9 +44,13 @@ impl Motion<'_> {
         let timed: Vec<usize> = passage.guards.iter().map(|g| structure.guards[*g].kind.place(stops)).collect();
         for (g, guard) in structure.guards.iter().enumerate() {
             let at = guard.kind.place(stops);
-            let ends = before.states[at].constrains() && !after.states[at].constrains() && !timed.contains(&at);
-            let is_force = !matches!(guard.kind, GuardKind::Gap(_) | GuardKind::Depth(_) | GuardKind::Sliding(_));
-            if !(ends && is_force) {
+            let (then, now) = (before.states[at], after.states[at]);
+            let changes = match guard.kind {
+                GuardKind::Gap(_) | GuardKind::Depth(_) | GuardKind::Force(_) => false,
+                GuardKind::Sliding(_) => !then.constrains() && now != then,
+                _ => then.constrains() && !now.constrains(),
+            };
+            if !changes || timed.contains(&at) {
                 continue;
             }
             let (value, rate) = before.flight(&self.normal, structure.clone()).first(&guard.function);
