@@ -8,7 +8,7 @@ use vibroimpact::continuation::{
 use vibroimpact::events::Start;
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::math::Matrix;
-use vibroimpact::orbit::{Stability, machine::Cycle};
+use vibroimpact::orbit::{Label, Stability, machine::Cycle};
 use vibroimpact::verdict::{SettleOptions, Verdict, settle_machine};
 
 pub(crate) fn settled(machine: &Machine, start: &Start) -> Option<Cycle> {
@@ -374,5 +374,87 @@ fn f42z_bodies_beside_each_other_have_the_branch_of_one() {
         assert_eq!(event, alone);
         assert!(also.is_none_or(|also| also == 1), "{other:?}");
         assert!((at - beside).abs() < 1e-7, "{event:?} at {at} and {beside}");
+    }
+}
+
+/// Pairs of equal bodies with a preloaded stop and friction between them, under opposite forces.
+fn rubbing_pairs(count: usize, frequency: f64) -> Machine {
+    let law = StopLaw::Compliant { stiffness: 30.0, damping: 1.0, preload: 0.1, opening: Opening::Force };
+    let along = |factors: &[(usize, f64)]| {
+        let mut direction = vec![0.0; 2 * count];
+        factors.iter().for_each(|(k, factor)| direction[*k] = *factor);
+        direction
+    };
+    let mut parts = MachineParts::new((0..2 * count).map(|k| format!("x{k}"))).with_frequency(frequency);
+    for pair in 0..count {
+        let (a, b) = (2 * pair, 2 * pair + 1);
+        for (k, force) in [(a, 1.0), (b, -1.0)] {
+            parts = parts.with_mass(k, 1.0).with_link(&along(&[(k, 1.0)]), 1.0, 0.1).with_force(k, 1, 0.0, force);
+        }
+        let between = along(&[(a, 1.0), (b, -1.0)]);
+        parts = parts.with_stop(&format!("c{pair}"), &between, 0.3, law).with_joint(
+            &format!("f{pair}"),
+            &between,
+            0.1,
+            0.1,
+            0.0,
+        );
+    }
+    Machine::new(parts).unwrap()
+}
+
+/// Where friction acts beside a stop, its joint turns back just when the gap is least. A grazing contact there is inserted around that:
+/// the branch ended without convergence, although the stable 3/1 follows. From the other side it has the same events, and so have two
+/// pairs beside each other.
+#[test]
+fn f42za_a_contact_that_grazes_where_a_joint_turns_back() {
+    let along = |count: usize, frequency: f64, direction: Direction| {
+        let machine = rubbing_pairs(count, frequency);
+        let cycle = settled(&machine, &Start::default()).unwrap();
+        let points = traced((&machine, "frequency"), &cycle, (0.6, 0.64), direction);
+        let mut found = events(&points);
+        assert_eq!(found.pop().unwrap().0, BranchEvent::EndOfRange);
+        (found, points.last().unwrap().cycle.label)
+    };
+    let (down, label) = along(1, 0.64, Direction::Down);
+    let expected = [
+        BranchEvent::Grazing { stop: 0, also: None, appears: true, turns: true },
+        BranchEvent::Corner { first: 0, second: 0 },
+        BranchEvent::Fold,
+    ];
+    assert_eq!(down.iter().map(|(event, _)| *event).collect::<Vec<_>>(), expected);
+    assert_eq!(label, Label::new(3, 1));
+    let mut back = along(1, 0.61, Direction::Up).0;
+    back.reverse();
+    for other in [back, along(2, 0.64, Direction::Down).0] {
+        assert_eq!(down.len(), other.len(), "{other:?}");
+        for ((event, at), (other, there)) in down.iter().zip(&other) {
+            assert!((at - there).abs() < 1e-8, "{event:?} at {at}, {other:?} at {there}");
+        }
+    }
+}
+
+/// A rigid stop that is there twice has the branch of one, from a cycle with a complete chatter: at the rest both stops pushed, which
+/// has no solution, so there was no branch.
+#[test]
+fn f42zb_the_branch_of_a_chatter_on_a_stop_that_is_there_twice() {
+    let of = |stops: &[&str]| {
+        let parts = MachineParts::new(["a", "b"])
+            .with_frequency(0.9)
+            .with_mass(0, 1.0)
+            .with_mass(1, 1.0)
+            .with_link(&[1.0, 0.0], 1.0, 0.1)
+            .with_link(&[0.0, 1.0], 1.0, 0.1)
+            .with_force(0, 1, 0.0, 1.0);
+        let machine =
+            Machine::new(stops.iter().fold(parts, |parts, name| parts.with_rigid_stop(name, &[1.0, -1.0], 0.1, 0.6)))
+                .unwrap();
+        let cycle = settled(&machine, &Start::default()).unwrap();
+        events(&traced((&machine, "frequency"), &cycle, (0.8, 0.9), Direction::Down))
+    };
+    let (one, two) = (of(&["s"]), of(&["s", "again"]));
+    assert_eq!(one.len(), two.len(), "{one:?} {two:?}");
+    for ((event, at), (other, there)) in one.iter().zip(&two) {
+        assert!(event.place() == other.place() && (at - there).abs() < 1e-8, "{event:?} {other:?}");
     }
 }

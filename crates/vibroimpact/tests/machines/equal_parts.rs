@@ -3,7 +3,7 @@
 
 use crate::branches_beyond::{events, settled, traced};
 use vibroimpact::continuation::{Direction, machine::BranchEvent};
-use vibroimpact::events::Start;
+use vibroimpact::events::{EventKind, Start};
 use vibroimpact::machine::{ImpactLaw, Machine, MachineParts};
 use vibroimpact::orbit::{Label, Stability, find_machine_while, machine::Cycle};
 
@@ -240,4 +240,31 @@ fn the_steady_motion_is_one_orbit() {
     let starts = (0..20).map(|k| Start { q: vec![0.1 * f64::from(k), 0.0], ..Start::default() });
     let found = find_machine_while(&machine, Label::new(0, 1), starts, &|| true).unwrap();
     assert_eq!(found.len(), 1);
+}
+
+/// Holds of equal parts begin and end at one time: each at its own in neighbours, so that the multipliers are those of one.
+#[test]
+fn holds_of_equal_parts_have_the_multipliers_of_one() {
+    let rubbing = |count: usize| {
+        let mut parts = MachineParts::new((0..count).map(|k| format!("x{k}"))).with_frequency(0.8);
+        for k in 0..count {
+            let mut own = vec![0.0; count];
+            own[k] = 1.0;
+            parts = parts
+                .with_mass(k, 1.0)
+                .with_link(&own, 1.0, 0.05)
+                .with_force(k, 1, 0.0, 0.6)
+                .with_rigid_stop(&format!("s{k}"), &own, 0.5, 0.4)
+                .with_joint(&format!("j{k}"), &own, 0.15, 0.2, 0.0);
+        }
+        Machine::new(parts).unwrap()
+    };
+    let cycles = [1, 2, 3].map(|count| settled(&rubbing(count), &Start::default()).unwrap());
+    let holds = cycles[0].events.iter().filter(|event| event.kind == EventKind::Hold).count();
+    assert!(holds > 0, "{:?}", cycles[0].events);
+    let one = moduli(&cycles[0]);
+    for (count, cycle) in cycles.iter().enumerate() {
+        let all: Vec<f64> = one.iter().flat_map(|of| vec![*of; count + 1]).collect();
+        close(&moduli(cycle), &all, 1e-9);
+    }
 }

@@ -125,8 +125,8 @@ impl MachineRing {
         }
         let structure = frame.structure(&from.states)?;
         let before = frame.moved(&from, &structure, time);
-        let of = |kind: &GuardKind| structure.guards.iter().position(|guard| guard.kind == *kind);
-        let guards: Vec<usize> = core::iter::once(&event.guard).chain(&event.with).map(of).collect::<Option<_>>()?;
+        let of = |kind: GuardKind| structure.guards.iter().position(|guard| guard.kind == kind);
+        let guards: Vec<usize> = event.guards().map(of).collect::<Option<_>>()?;
         let restitution = |j: usize| match frame.machine.stops()[j].law {
             StopLaw::Rigid { restitution } => restitution,
             StopLaw::Compliant { .. } => 0.0,

@@ -14,27 +14,30 @@ pub(crate) fn events_of(lap: &MachineLap) -> Vec<(f64, RingEvent, Place)> {
     // the last step is the flight to the end
     let passages = lap.steps[..lap.steps.len() - 1].iter();
     let mut events: Vec<(f64, RingEvent, Place)> = Vec::new();
-    let mut on_holder: Vec<Option<usize>> = Vec::new();
+    let mut on_holder: Vec<(usize, usize)> = Vec::new();
     for (time, _, passage) in passages {
         let Some((event, place)) = RingEvent::of(passage).zip(passage.after.clone()) else { continue };
         let stood_back = |stop: usize| passage.before.as_ref().is_some_and(|before| before.surfaces[stop].is_some());
-        on_holder.push(match event.guard {
-            GuardKind::Gap(stop) if !stood_back(stop) => Some(stop),
+        let closed = event.guards().filter_map(|guard| match guard {
+            GuardKind::Gap(stop) if !stood_back(stop) => Some((events.len(), stop)),
             _ => None,
         });
+        on_holder.extend(closed);
         events.push((time + passage.duration, event, place));
     }
     let m = events.len();
-    for (k, stop) in on_holder.into_iter().enumerate().filter_map(|(k, stop)| Some((k, stop?))) {
+    for (k, stop) in on_holder {
         // where the lap is not closed, what is at its end is not what was at its beginning
         let stands = |place: &Place| place.surfaces[stop].is_some();
         let closes = lap.steps.first().is_some_and(|(_, begin, _)| stands(begin) == stands(&lap.end));
         let before = (1..m).take_while(|i| *i <= k || closes).map(|i| (k + m - i) % m);
         for i in before {
-            if !core::mem::take(&mut events[i].1.back[stop]) {
+            // between the opening and the closing there can be others, at which it is on its holder or still stands back
+            events[i].1.back[stop] = false;
+            events[i].2.surfaces[stop] = None;
+            if events[i].1.has(GuardKind::Force(stop)) || events[i].1.has(GuardKind::Gap(stop)) {
                 break;
             }
-            events[i].2.surfaces[stop] = None;
         }
     }
     events

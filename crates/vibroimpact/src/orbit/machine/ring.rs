@@ -69,6 +69,16 @@ impl RingEvent {
         Self { guard, with: Vec::new(), after: after.to_vec(), pushed: Vec::new(), rounds: Vec::new(), back }
     }
 
+    /// All guards that are zero.
+    pub(crate) fn guards(&self) -> impl Iterator<Item = GuardKind> {
+        core::iter::once(self.guard).chain(self.with.iter().copied())
+    }
+
+    /// Whether this guard is zero.
+    pub(crate) fn has(&self, guard: GuardKind) -> bool {
+        self.guards().any(|own| own == guard)
+    }
+
     /// Whether nothing happens at it, where `before` are the states before.
     pub(crate) fn touches(&self, before: &[ContactState]) -> bool {
         self.pushed.is_empty() && self.after == before
@@ -257,7 +267,7 @@ impl MachineRing {
             place.surfaces[stop] = None;
         }
         let m = self.len();
-        for k in (0..m).filter(|k| self.events[*k].guard == GuardKind::Force(stop)).collect::<Vec<_>>() {
+        for k in (0..m).filter(|k| self.events[*k].has(GuardKind::Force(stop))).collect::<Vec<_>>() {
             let place = self.place(k);
             let depth = (-place.gap(&frame.normal, &place.turns(&frame.normal), stop).0).max(LEAST.0);
             // the surface is taken along through the events after it, until its stop closes again
@@ -265,7 +275,7 @@ impl MachineRing {
             let later = |time: f64| Recovery { size: surface.size * decay(surface.rate * time).0, ..surface };
             let mut stands = vec![(k, surface)];
             let mut time = self.time(k, frame.machine);
-            for i in (1..m).map(|i| (k + i) % m).take_while(|i| self.events[*i].guard != GuardKind::Gap(stop)) {
+            for i in (1..m).map(|i| (k + i) % m).take_while(|i| !self.events[*i].has(GuardKind::Gap(stop))) {
                 stands.push((i, later(time)));
                 time += self.time(i, frame.machine);
             }
@@ -386,6 +396,17 @@ impl MachineRing {
         if self.unforced() {
             self.places.iter_mut().for_each(|place| place.phase -= phase);
         }
+    }
+
+    /// The same cycle with event `k` as the first one.
+    pub(crate) fn beginning_at(mut self, k: usize) -> Self {
+        let (angle, end) = (self.angle(), self.theta(k) + self.angle());
+        self.places[..k].iter_mut().for_each(|place| place.phase += angle);
+        self.events.rotate_left(k);
+        self.places.rotate_left(k);
+        self.together = self.together.map(|event| (event + self.len() - k) % self.len());
+        self.end_at(end);
+        self
     }
 
     /// A state between two events: the middle of the longest flight, with the event before it.

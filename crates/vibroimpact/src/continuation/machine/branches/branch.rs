@@ -12,6 +12,7 @@ use super::point::{BranchEvent, SolutionPoint};
 use super::problem::{Judged, MachineProblem, MachineSolution};
 use super::rest_for_ever::rest_for_ever;
 use super::step::{NEARBY, off_circle};
+use super::struck::struck;
 use super::summed::same_in_turn;
 use super::test_functions::TestFunction;
 use crate::continuation::branches::{BranchError, BranchOptions, Direction, scale};
@@ -180,6 +181,9 @@ impl EventBranch {
         if of_rest && let Some(next) = same_beyond(&self.tracer, at, &self.path.options) {
             return self.exchange(next);
         }
+        let struck = if next.is_none() { struck(&self.tracer, at, &self.path.options) } else { None };
+        let (at, next) = struck.map_or((at.clone(), next), |(at, next)| (at, Some(next)));
+        let at = &at;
         let beyond = || replayed(&self.tracer, at, (&self.path.options, found));
         let Some((next, continues)) = next.map(|next| (next, true)).or_else(beyond) else {
             let next = across(&self.tracer, at, &self.path.options);

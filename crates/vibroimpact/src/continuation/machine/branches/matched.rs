@@ -1,5 +1,5 @@
 //! The events of a motion beside those of a signature: how many impacts of a chatter are followed before the rest is no property of
-//! a cycle.
+//! a cycle, and what happens at one time in the signature can be apart by the error of a solution.
 
 use crate::orbit::RingEvent;
 
@@ -47,12 +47,31 @@ pub(crate) fn matched(wanted: &[(f64, &RingEvent)], seen: &[(f64, RingEvent)]) -
                 (i, j) = (rest + 1, j + followed + 1);
             }
             _ => {
-                events.push(seen[j].1.clone());
-                (i, j) = (i + 1, j + 1);
+                let (event, parts) = wanted
+                    .get(i)
+                    .and_then(|(_, event)| Some((*event, parts(event, &seen[j..])?)))
+                    .unwrap_or((&seen[j].1, 1));
+                events.push(event.clone());
+                (i, j) = (i + 1, j + parts);
             }
         }
     }
     events
+}
+
+/// Phases that differ by less are one within the errors of a solution.
+const AT_ONCE: f64 = 1e-8;
+
+/// Over how many events a motion has what happens at one time in the signature: of equal parts each solution has its own error. `None`
+/// if it has something else.
+fn parts(wanted: &RingEvent, seen: &[(f64, RingEvent)]) -> Option<usize> {
+    let all = wanted.guards().count();
+    let own = |event: &RingEvent| event.guards().all(|guard| wanted.has(guard));
+    let (begin, _) = seen.first()?;
+    let count = seen.iter().take(all).take_while(|(phase, event)| phase - begin < AT_ONCE && own(event)).count();
+    let (_, last) = &seen[count.checked_sub(1)?];
+    let told: usize = seen[..count].iter().map(|(_, event)| event.guards().count()).sum();
+    (count > 1 && told == all && last.after == wanted.after && last.back == wanted.back).then_some(count)
 }
 
 #[cfg(test)]

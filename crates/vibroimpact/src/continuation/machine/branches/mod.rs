@@ -21,6 +21,7 @@
 //! | where the impacts of a chatter become infinitely many | `complete_chatter` |
 //! | two events that come so close that no further step converges | `meeting` |
 //! | the branch beyond such a change | `beyond` |
+//! | the same where a contact grazes at the time of another event | `struck` |
 //! | where the structure rests for ever beyond | `rest_for_ever` |
 //! | the cycle of twice the period beside a flip, and where it is the other one repeated | `switch`, `halving` |
 //! | the branch, and the events of a step | `branch`, `step` |
@@ -45,6 +46,7 @@ mod problem;
 mod rest;
 mod rest_for_ever;
 mod step;
+mod struck;
 mod summed;
 mod switch;
 mod test_functions;

@@ -87,7 +87,7 @@ impl EventBranch {
         let needed = |(_, what): &&Crossing| {
             what.is_some_and(|j| self.tracer.problem.tests[j].needed() && self.tracer.signs[j] == Some(true))
         };
-        let &(s, _) = step.crossed.iter().find(needed)?;
+        let &(s, first) = step.crossed.iter().find(needed)?;
         let near = |by: f64| {
             let place = s + by * step.length;
             (0.0 < place && place < step.length).then(|| Some((place, self.tracer.at(step, place)?))).flatten()
@@ -100,6 +100,11 @@ impl EventBranch {
         let together = step.crossed.iter().filter(needed).filter(|(other, _)| other - s < TOGETHER);
         let zeros = together.filter_map(|(_, what)| what.map(|j| self.tracer.problem.tests[j])).collect();
         let w = self.tracer.between(step, s)?;
+        // where an event is at the least gap, rounding decides whether a flight has that gap, and its function changes its sign by a jump
+        let is_zero = |j: usize| self.tracer.problem.test(j, &w, || None).is_none_or(|value| value.abs() < ZERO);
+        if !first.is_none_or(is_zero) {
+            return None;
+        }
         // rounding decides which events the motion has here, and the number can turn: the solution just before stands for it
         let outside = (s + APART * step.length).min(step.length);
         let last = edge(&self.tracer, step, outside, Judged::physical)
@@ -260,6 +265,8 @@ struct Grazing {
 
 /// The distance, in parts of a step, from such a zero of the solutions that are compared.
 const APART: f64 = 1e-2;
+/// A function that has to be positive is zero below this.
+const ZERO: f64 = 1e-7;
 /// The distance, in parts of a step, of a solution just beyond the last admissible one.
 const JUST: f64 = 1e-4;
 /// Zeros not farther apart than this along the step are one event.
