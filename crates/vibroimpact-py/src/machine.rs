@@ -132,7 +132,7 @@ impl MachineFile {
 
 /// The start with these coordinates, velocities and phase. That of the file has its contacts too.
 pub(crate) fn start(file: &MachineFile, (q, qdot, phase): Start) -> Result<events::Start, Trouble> {
-    let own = events::Start::from(file.0.start()?);
+    let own = file.0.start()?;
     let same = (&own.q, &own.qdot) == (&q, &qdot) && own.phase.to_bits() == phase.to_bits();
     Ok(if same { own } else { events::Start { q, qdot, phase, ..events::Start::default() } })
 }

@@ -18,12 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let save = |name: &str, figure: &Figure| -> Result<(), Box<dyn Error>> {
         Ok(std::fs::write(folder.join(format!("{name}.png")), figure.to_png(1.0)?)?)
     };
-    let system = |inverse: f64, gap: f64| SystemPlan {
-        inverse_beta: Some(inverse),
-        gap,
-        restitution: 0.5,
-        ..SystemPlan::default()
-    };
+    let system = |inverse: f64, gap: f64| SystemPlan::from_inverse_beta(inverse, gap, 0.5);
     let si = Units { scales: Some(Scales { length: 0.005, time: 0.05, mass: 1.0 }), si: true, ..Units::default() };
     let two = SystemPlan {
         second_stop: Some(vibroimpact_study::SecondStop { gap: 0.5, restitution: 0.6 }),

@@ -21,7 +21,7 @@ fn map(points: u32) -> Plan {
 fn basin(points: u32) -> Plan {
     let over = |from: f64, to: f64| vibroimpact_study::Span::new(from, to, points).unwrap();
     let task = BasinPlan::plane(over(-4.0, 0.75), over(-4.0, 4.0), 0.0);
-    let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
+    let system = SystemPlan::from_inverse_beta(1.3, 0.75, 0.5);
     Plan { tile: Some(points), ..Plan::new(system, Task::from(task)) }
 }
 

@@ -8,7 +8,7 @@
 
 mod common;
 
-use common::{basin, control, map, whole};
+use common::{basin, control, map, sharded, stopped, whole};
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{Read, Write};
@@ -16,10 +16,9 @@ use std::net::{TcpListener, TcpStream};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-use vibroimpact_store::{Bucket, Part, Shelf, Store, StoreError, shelf};
-use vibroimpact_study::{Control, Plan};
+use vibroimpact_store::{Bucket, Part, Shelf, Store, shelf};
+use vibroimpact_study::Plan;
 
 /// A server on this machine, with one bucket called `studies`.
 struct Server {
@@ -106,11 +105,6 @@ fn variables(server: &str) -> Vec<(String, String)> {
     names.into_iter().zip(values).map(|(name, value)| (name.to_owned(), value.to_owned())).collect()
 }
 
-/// The same plans with shards of 2 by 2 and 3 by 3 tiles.
-fn sharded() -> [Plan; 2] {
-    [Plan { shard: Some(2), ..basin() }, Plan { shard: Some(3), ..map() }]
-}
-
 /// All objects of a place.
 fn objects(shelf: &dyn Shelf) -> BTreeMap<String, Vec<u8>> {
     shelf.list("").unwrap().into_iter().map(|item| (item.key.clone(), shelf.get(&item.key).unwrap().unwrap())).collect()
@@ -178,20 +172,7 @@ fn stopped_and_resumed_it_is_the_same() {
     let [of_basin, _] = sharded();
     for (plan, place) in [(basin(), "s3://studies/basin"), (of_basin, "s3://studies/sharded")] {
         let (_kept, want) = whole(&plan);
-        let mut stops = 0;
-        loop {
-            let (stop, first) = (AtomicBool::new(false), std::sync::OnceLock::new());
-            let progress = |now: u64| {
-                stop.fetch_or(now > first.get_or_init(|| now) + 400, Ordering::Relaxed);
-            };
-            match server.open(place, &plan).run(Part::ALL, &Control { stop: &stop, progress: &progress, threads: 2 }) {
-                Ok(_) => break,
-                Err(StoreError::Stopped(stopped)) => assert!(stopped.done < stopped.total),
-                Err(other) => panic!("{other}"),
-            }
-            stops += 1;
-            assert!(stops < 100);
-        }
+        let stops = stopped(|| server.open(place, &plan), 400, 2);
         assert!(stops > 1, "{stops}");
         assert!(objects(server.shelf(place).as_ref()) == want, "{place}");
     }

@@ -5,27 +5,18 @@
 
 mod common;
 
-use common::{S, basin, control, files, map, open, rare, whole};
+use common::{Access, S, again, basin, control, files, map, open, rare, sharded, watched, whole};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 use std::{fs, io};
-use vibroimpact_store::{Folder, Item, Part, Shelf, Store, StoreError};
+use vibroimpact_store::{Folder, Part, Shelf, Store, StoreError};
 use vibroimpact_study::{BasinPlan, Plan, Task};
-
-/// The plans of 20 and 12 tiles, with shards of 2 by 2 and 3 by 3 tiles.
-fn plans() -> [Plan; 2] {
-    [Plan { shard: Some(2), ..basin() }, Plan { shard: Some(3), ..map() }]
-}
-
-fn again(folder: &Path) -> Store {
-    Store::open(Arc::new(Folder::new(folder))).unwrap()
-}
 
 #[test]
 fn shards_have_the_same_numbers_in_fewer_files() {
-    for (plan, plain, shards) in plans().into_iter().zip([basin(), map()]).zip([6, 2]).map(|((a, b), c)| (a, b, c)) {
+    for (plan, plain, shards) in sharded().into_iter().zip([basin(), map()]).zip([6, 2]).map(|((a, b), c)| (a, b, c)) {
         let (folder, files) = whole(&plan);
         let (other, more) = whole(&plain);
         let (store, without) = (again(folder.path()), again(other.path()));
@@ -52,7 +43,7 @@ fn shards_have_the_same_numbers_in_fewer_files() {
 
 #[test]
 fn parts_threads_and_budgets_give_the_same_bytes() {
-    for plan in plans() {
+    for plan in sharded() {
         let (_kept, want) = whole(&plan);
         let folder = tempfile::tempdir().unwrap();
         for index in [3, 1, 2] {
@@ -84,91 +75,16 @@ fn parts_threads_and_budgets_give_the_same_bytes() {
     }
 }
 
-/// A folder that fails from a given change on, as for a process that is killed then. It counts the tiles that are written to
-/// wait for their shard.
-struct Dying(Folder, AtomicU64, AtomicU64);
-
-impl Dying {
-    fn after(folder: &Path, changes: u64) -> Arc<Self> {
-        Arc::new(Self(Folder::new(folder), AtomicU64::new(changes), AtomicU64::new(0)))
-    }
-
-    fn change(&self) -> io::Result<()> {
-        let left = self.1.load(Ordering::Relaxed);
-        self.1.store(left.saturating_sub(1), Ordering::Relaxed);
-        if left == 0 { Err(io::Error::other("killed")) } else { Ok(()) }
-    }
-}
-
-impl Shelf for Dying {
-    fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
-        self.0.get(key)
-    }
-    fn put(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
-        self.2.fetch_add(u64::from(key.starts_with(".tiles/")), Ordering::Relaxed);
-        self.change().and_then(|()| self.0.put(key, bytes))
-    }
-    fn remove(&self, key: &str) -> io::Result<()> {
-        self.change().and_then(|()| self.0.remove(key))
-    }
-    fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
-        self.0.list(prefix)
-    }
-    fn sweep(&self) -> io::Result<()> {
-        self.0.sweep()
-    }
-    fn name(&self) -> String {
-        self.0.name()
-    }
-}
-
-/// A folder in which another process does something just before this process reads or changes it.
-struct Meanwhile {
-    folder: Folder,
-    /// Number of accesses before it.
-    left: AtomicU64,
-    what: Box<dyn Fn() + Send + Sync>,
-}
-
-impl Meanwhile {
-    fn access(&self) {
-        if self.left.fetch_sub(1, Ordering::Relaxed) == 0 {
-            (self.what)();
-        }
-    }
-}
-
-impl Shelf for Meanwhile {
-    fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
-        self.access();
-        self.folder.get(key)
-    }
-    fn tail(&self, key: &str, count: usize) -> io::Result<Option<(Vec<u8>, u64)>> {
-        self.access();
-        self.folder.tail(key, count)
-    }
-    fn range(&self, key: &str, from: u64, count: u64) -> io::Result<Option<Vec<u8>>> {
-        self.access();
-        self.folder.range(key, from, count)
-    }
-    fn put(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
-        self.access();
-        self.folder.put(key, bytes)
-    }
-    fn remove(&self, key: &str) -> io::Result<()> {
-        self.access();
-        self.folder.remove(key)
-    }
-    fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
-        self.access();
-        self.folder.list(prefix)
-    }
-    fn sweep(&self) -> io::Result<()> {
-        self.folder.sweep()
-    }
-    fn name(&self) -> String {
-        self.folder.name()
-    }
+/// A folder that fails from a given change on, as for a process that is killed then.
+fn dying(folder: &Path, changes: u64) -> Arc<dyn Shelf> {
+    let left = AtomicU64::new(changes);
+    let count = move || left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(1)).is_err();
+    watched(
+        folder,
+        move |access, _| {
+            if access != Access::Read && count() { Err(io::Error::other("killed")) } else { Ok(()) }
+        },
+    )
 }
 
 /// Tiles that wait move to their shards, and the last process writes the final numbers. A process that works at the
@@ -202,17 +118,18 @@ fn tiles_that_move_while_they_are_read_are_found() {
             // all tiles wait
             let store = open(&place, &plan);
             (0..).zip(&tiles).for_each(|(tile, columns)| store.write_tile(tile, columns).unwrap());
-            let there = place.clone();
-            let other = Meanwhile {
-                folder: Folder::new(&place),
-                left: AtomicU64::new(u64::MAX),
-                what: Box::new(move || assert!(again(&there).conclude_if_done().unwrap())),
-            };
-            let other = Arc::new(other);
-            let store = Store::open(Arc::<Meanwhile>::clone(&other)).unwrap();
-            other.left.store(before, Ordering::Relaxed);
+            let left = Arc::new(AtomicU64::new(u64::MAX));
+            let (count, there) = (Arc::clone(&left), place.clone());
+            // another process acts just before this one reads or changes something
+            let meanwhile = watched(&place, move |_, _| {
+                let now = count.fetch_sub(1, Ordering::Relaxed) == 0;
+                assert!(!now || again(&there).conclude_if_done().unwrap());
+                Ok(())
+            });
+            let store = Store::open(meanwhile).unwrap();
+            left.store(before, Ordering::Relaxed);
             let found = act(&store).unwrap_or_else(|error| panic!("{name}, after {before} accesses: {error}"));
-            let moved = other.left.load(Ordering::Relaxed) > before;
+            let moved = left.load(Ordering::Relaxed) > before;
             assert_eq!(found, u64::from(name == "conclude"), "{name}, after {before} accesses");
             if name == "read" {
                 assert!(store.column(0).unwrap() == complete.column(0).unwrap());
@@ -248,8 +165,7 @@ fn killed_at_every_change() {
         let mut changes = 0;
         loop {
             let folder = tempfile::tempdir().unwrap();
-            let dying = Dying::after(folder.path(), changes);
-            let died = Store::create(dying, plan).and_then(|store| all_tiles(&store, alone));
+            let died = Store::create(dying(folder.path(), changes), plan).and_then(|store| all_tiles(&store, alone));
             if let Ok(store) = Store::open(Arc::new(Folder::new(folder.path()))) {
                 let found = store.verify(0, 0, &control(1)).unwrap();
                 let of_tile: Vec<_> = found.damage.iter().filter(|damage| damage.tile.is_some()).collect();
@@ -270,17 +186,23 @@ fn killed_at_every_change() {
 /// Tiles that take little time are not written until their shard is, unless the run ends before.
 #[test]
 fn quick_tiles_are_written_with_their_shard() {
-    for plan in plans() {
+    for plan in sharded() {
         let (_kept, want) = whole(&plan);
         for threads in [1, 3] {
             let folder = tempfile::tempdir().unwrap();
-            let counting = Dying::after(folder.path(), u64::MAX);
-            let store = Store::create(Arc::<Dying>::clone(&counting), &plan).unwrap();
+            let written = Arc::new(AtomicU64::new(0));
+            let count = Arc::clone(&written);
+            // counts the tiles that are written to wait for their shard
+            let counting = watched(folder.path(), move |access, key| {
+                count.fetch_add(u64::from(access == Access::Put && key.starts_with(".tiles/")), Ordering::Relaxed);
+                Ok(())
+            });
+            let store = Store::create(counting, &plan).unwrap();
             store.run_until(Part::ALL, Some(Instant::now()), &control(1)).unwrap();
-            assert_eq!((counting.2.load(Ordering::Relaxed), store.progress().unwrap().done), (1, 1));
+            assert_eq!((written.load(Ordering::Relaxed), store.progress().unwrap().done), (1, 1));
             store.run(Part::ALL, &control(threads)).unwrap();
             // the others of the shard of that tile
-            let waited = counting.2.load(Ordering::Relaxed);
+            let waited = written.load(Ordering::Relaxed);
             assert!(waited <= store.shard().unwrap().iter().product::<usize>() as u64, "{waited}");
             assert!(files(folder.path()) == want);
         }
@@ -305,7 +227,7 @@ fn further_runs_keep_the_cycles_that_the_survey_missed() {
 
 #[test]
 fn damage_of_shards_is_found_and_mended() {
-    for plan in plans() {
+    for plan in sharded() {
         let (folder, want) = whole(&plan);
         let chunks: Vec<&String> = want.keys().filter(|key| key.contains("/c/")).collect();
         let shards = |key: &str| {

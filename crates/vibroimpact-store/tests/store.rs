@@ -5,13 +5,13 @@
 
 mod common;
 
-use common::{S, basin, control, files, map, open, whole};
+use common::{Access, S, again, basin, control, files, map, open, stopped, watched, whole};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 use std::{fs, io};
-use vibroimpact_store::{Folder, Item, Part, Shelf, Store, StoreError, costs_beside};
+use vibroimpact_store::{Folder, Part, Store, StoreError, costs_beside};
 use vibroimpact_study::{Axis, Control, DiagramPlan, LyapunovPlan, MapPlan, Parameter, Plan, SystemPlan, Task};
 
 #[test]
@@ -49,7 +49,7 @@ fn every_kind_of_study_is_stored() {
     ] {
         let plan = Plan::new(system, task);
         let (folder, _) = whole(&plan);
-        let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
+        let store = again(folder.path());
         assert_eq!(store.plan(), &plan.canonical().unwrap());
         let found = store.verify(1000, 0, &control(2)).unwrap();
         assert_eq!((found.damage, found.open), (vec![], 0));
@@ -69,23 +69,7 @@ fn stopped_and_resumed_it_is_the_same() {
     let plan = basin();
     let (_kept, want) = whole(&plan);
     let folder = tempfile::tempdir().unwrap();
-    let mut stops = 0;
-    // stopped after 300 more points each time
-    loop {
-        let (stop, seen) = (AtomicBool::new(false), AtomicU64::new(u64::MAX));
-        let progress = |now: u64| {
-            let first = seen.fetch_min(now, Ordering::Relaxed).min(now);
-            stop.fetch_or(now > first + 300, Ordering::Relaxed);
-        };
-        let control = Control { stop: &stop, progress: &progress, threads: 2 };
-        match open(folder.path(), &plan).run(Part::ALL, &control) {
-            Ok(_) => break,
-            Err(StoreError::Stopped(stopped)) => assert!(stopped.done < stopped.total),
-            Err(other) => panic!("{other}"),
-        }
-        stops += 1;
-        assert!(stops < 100);
-    }
+    let stops = stopped(|| open(folder.path(), &plan), 300, 2);
     assert!(stops > 1, "{stops}");
     assert!(files(folder.path()) == want);
 }
@@ -195,7 +179,7 @@ fn damage_is_found_and_mended() {
     for plan in [basin(), map()] {
         let (folder, want) = whole(&plan);
         let chunks: Vec<&String> = want.keys().filter(|key| key.contains("/c/")).collect();
-        let open_again = || Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
+        let open_again = || again(folder.path());
         for (k, key) in chunks.iter().enumerate().step_by(7) {
             let (path, bytes) = (folder.path().join(key), &want[*key]);
             match k % 3 {
@@ -228,7 +212,7 @@ fn damage_is_found_and_mended() {
 #[test]
 fn fz2_a_damaged_tile_is_never_read_as_an_open_one() {
     let (folder, want) = whole(&basin());
-    let open_again = || Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
+    let open_again = || again(folder.path());
     let path = folder.path().join("cycle/c/0/0");
     assert!(open_again().whole(&control(2)).is_ok());
     for damaged in
@@ -259,7 +243,7 @@ fn a_wrong_tile_is_found_by_computing_it_again() {
     let (_, other) =
         want.iter().find(|(key, bytes)| key.starts_with("label/c/") && **bytes != want["label/c/0/0"]).unwrap();
     fs::write(folder.path().join("label/c/0/0"), other).unwrap();
-    let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
+    let store = again(folder.path());
     assert!(store.verify(0, 0, &control(1)).unwrap().damage.is_empty());
     let found = store.verify(u64::MAX, 0, &control(2)).unwrap();
     assert_eq!(found.recomputed, store.study().grid().tiles());
@@ -277,7 +261,7 @@ fn fz3_a_chunk_that_differs_beyond_the_edge_of_the_grid_is_damaged() {
     let (folder, want) = whole(&Plan { tile: Some(4), ..Plan::new(system, Task::from(task)) });
     assert_ne!(want["label/c/0/2/0"], want["label/c/1/2/0"]);
     fs::copy(folder.path().join("label/c/0/2/0"), folder.path().join("label/c/1/2/0")).unwrap();
-    let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
+    let store = again(folder.path());
     let found = store.verify(u64::MAX, 0, &control(2)).unwrap();
     assert!(found.damage.len() == 1 && found.damage[0].what.contains("label/c/1/2/0"), "{:?}", found.damage);
 }
@@ -298,35 +282,16 @@ fn two_at_once_do_no_harm() {
     }
 }
 
-/// A read-only folder.
-struct ReadOnly(Folder);
-
-impl Shelf for ReadOnly {
-    fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
-        self.0.get(key)
-    }
-    fn put(&self, _: &str, _: &[u8]) -> io::Result<()> {
-        Err(io::ErrorKind::ReadOnlyFilesystem.into())
-    }
-    fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
-        self.0.list(prefix)
-    }
-    fn remove(&self, _: &str) -> io::Result<()> {
-        Err(io::ErrorKind::ReadOnlyFilesystem.into())
-    }
-    fn sweep(&self) -> io::Result<()> {
-        Ok(())
-    }
-    fn name(&self) -> String {
-        self.0.name()
-    }
-}
-
 #[test]
 fn a_complete_store_is_not_written_to() {
     for plan in [basin(), map()] {
         let (folder, want) = whole(&plan);
-        let here = || Arc::new(ReadOnly(Folder::new(folder.path())));
+        let here = || {
+            watched(folder.path(), |access, _| match access {
+                Access::Read => Ok(()),
+                Access::Put | Access::Remove => Err(io::ErrorKind::ReadOnlyFilesystem.into()),
+            })
+        };
         let tiles = Store::open(here()).unwrap().study().grid().tiles();
         for store in [Store::create(here(), &plan).unwrap(), Store::open(here()).unwrap()] {
             let ran = store.run(Part::ALL, &control(2)).unwrap();
@@ -353,40 +318,19 @@ fn a_complete_store_is_not_written_to() {
     }
 }
 
-/// A folder in which another process creates a store just after it was found empty.
-struct Contested(Folder, Plan, AtomicBool);
-
-impl Shelf for Contested {
-    fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
-        let found = self.0.get(key);
-        if key == "zarr.json" && !self.2.swap(true, Ordering::Relaxed) {
-            open(self.0.path(), &self.1);
-        }
-        found
-    }
-    fn put(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
-        self.0.put(key, bytes)
-    }
-    fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
-        self.0.list(prefix)
-    }
-    fn remove(&self, key: &str) -> io::Result<()> {
-        self.0.remove(key)
-    }
-    fn sweep(&self) -> io::Result<()> {
-        self.0.sweep()
-    }
-    fn name(&self) -> String {
-        self.0.name()
-    }
-}
-
 #[test]
 fn a_store_that_is_begun_meanwhile_is_joined() {
     for (theirs, joined) in [(map(), true), (basin(), false)] {
         let folder = tempfile::tempdir().unwrap();
-        let shelf = Contested(Folder::new(folder.path()), theirs, AtomicBool::new(false));
-        match Store::create(Arc::new(shelf), &map()) {
+        let (place, begun) = (folder.path().to_owned(), AtomicBool::new(false));
+        // another process creates a store after none was found, just before all objects are listed
+        let contested = watched(folder.path(), move |_, key| {
+            if key.is_empty() && !begun.swap(true, Ordering::Relaxed) {
+                open(&place, &theirs);
+            }
+            Ok(())
+        });
+        match Store::create(contested, &map()) {
             Ok(store) => assert!(joined && store.progress().unwrap().done == 0),
             Err(error) => assert!(!joined && error.to_string().contains("holds another plan"), "{error}"),
         }
@@ -425,7 +369,7 @@ fn refusals() {
     assert!(newer.contains("has format 3; this program knows format 2"), "{newer}");
     let version = format!("\"vibroimpact_version\": \"{}\"", env!("CARGO_PKG_VERSION"));
     fs::write(&root, text.replace(&version, "\"vibroimpact_version\": \"0.0.9\"")).unwrap();
-    let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
+    let store = again(folder.path());
     // a complete store of another version may be read and concluded, but not extended
     store.run(Part::ALL, &control(1)).unwrap();
     fs::remove_file(folder.path().join("status/c/0/0")).unwrap();
@@ -540,7 +484,7 @@ fn f09_metadata_of_unfinished_and_older_stores() {
     let folder = tempfile::tempdir().unwrap();
     open(folder.path(), &plan).run(Part::new(1, 2).unwrap(), &control(1)).unwrap();
     let verified = |folder: &Path| {
-        let store = Store::open(Arc::new(Folder::new(folder))).unwrap();
+        let store = again(folder);
         store.verify(0, 0, &control(1)).unwrap()
     };
     let begun = files(folder.path());
@@ -602,19 +546,19 @@ fn a_store_of_other_defaults_is_resumed_and_verified() {
     fs::write(&root, format!("{value:#}\n")).unwrap();
     fs::remove_dir_all(folder.path().join("speed")).unwrap();
 
-    let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
+    let store = again(folder.path());
     assert_eq!(store.study().grid().dimensions.iter().map(|of| of.tile).collect::<Vec<_>>(), [3, 3]);
     assert!(store.field("speed").is_none() && store.field("share").is_some());
     let found = store.verify(1000, 0, &control(1)).unwrap();
     assert!(found.damage.is_empty() && found.open > 0 && found.recomputed > 0, "{found:?}");
     // the command of the plan goes on with it, too
     assert_eq!(open(folder.path(), &plan).run(Part::ALL, &control(2)).unwrap().left, 0);
-    let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
+    let store = again(folder.path());
     let found = store.verify(1000, 0, &control(1)).unwrap();
     assert!(found.damage.is_empty() && found.open == 0, "{found:?}");
     assert!(!folder.path().join("speed").exists());
     let (whole, _) = whole(&plan);
-    let now = Store::open(Arc::new(Folder::new(whole.path()))).unwrap();
+    let now = again(whole.path());
     let share = |store: &Store| store.column(store.field("share").unwrap()).unwrap();
     assert!(share(&store) == share(&now));
 }
@@ -623,7 +567,7 @@ fn a_store_of_other_defaults_is_resumed_and_verified() {
 #[test]
 fn a_difference_has_its_size() {
     let (folder, _) = whole(&map());
-    let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
+    let store = again(folder.path());
     let (_, mut columns) = store.tile(0).unwrap();
     let share = store.field("share").unwrap();
     if let vibroimpact_study::Column::F64(values) = &mut columns[share] {

@@ -4,15 +4,12 @@
 
 mod common;
 
-use common::{S, control, files, open, whole};
+use common::{S, control, files, open, stopped, whole};
 use std::fs;
-use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
-use vibroimpact_store::{Folder, Part, Store, StoreError};
+use vibroimpact_store::Part;
 use vibroimpact_study::machine::CATALOGUE;
-use vibroimpact_study::{Control, Plan, Task};
+use vibroimpact_study::{Plan, Task};
 
 /// Orbit diagrams of two sweeps with 15 values, of a range or listed.
 fn plans() -> [Plan; 3] {
@@ -53,24 +50,8 @@ fn stopped_runs_lose_no_value() {
     for plan in plans() {
         let (_kept, want) = whole(&plan);
         let folder = tempfile::tempdir().unwrap();
-        let (mut runs, computed) = (0, AtomicU64::new(0));
-        loop {
-            let (stop, first) = (AtomicBool::new(false), std::sync::OnceLock::new());
-            let progress = |now: u64| {
-                let from = *first.get_or_init(|| now);
-                if now > from + 4 {
-                    computed.fetch_add(1, Ordering::Relaxed);
-                    stop.store(true, Ordering::Relaxed);
-                }
-            };
-            match open(folder.path(), &plan).run(Part::ALL, &Control { stop: &stop, progress: &progress, threads: 1 }) {
-                Ok(_) => break,
-                Err(StoreError::Stopped(_)) => runs += 1,
-                Err(other) => panic!("{other}"),
-            }
-            assert!(runs < 60);
-        }
-        assert!(runs >= 2 && computed.into_inner() > 0, "{runs}");
+        let stops = stopped(|| open(folder.path(), &plan), 4, 1);
+        assert!((2..60).contains(&stops), "{stops}");
         assert!(files(folder.path()) == want);
     }
 }
@@ -105,11 +86,10 @@ fn sweeps_of_machines_too() {
     let machine = machine.into();
     let task = Task::from_json(task, &machine).unwrap();
     let plan = Plan::new(machine, task);
-    let store = |folder: &Path| Store::create(Arc::new(Folder::new(folder)), &plan).unwrap();
     let (one, two) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-    store(one.path()).run(Part::ALL, &control(1)).unwrap();
+    open(one.path(), &plan).run(Part::ALL, &control(1)).unwrap();
     let mut runs = 1;
-    while store(two.path()).run_until(Part::ALL, Some(Instant::now()), &control(1)).unwrap().spent {
+    while open(two.path(), &plan).run_until(Part::ALL, Some(Instant::now()), &control(1)).unwrap().spent {
         runs += 1;
     }
     assert!(runs == 12 && files(one.path()) == files(two.path()), "{runs}");

@@ -118,7 +118,8 @@ impl<'de> Deserialize<'de> for Coordinate {
 }
 
 /// The values of an axis: a range as text, `A:B:N` or `A:B:N:log`, or a list of numbers.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Values {
     /// A range.
     Span(Span),
@@ -224,15 +225,6 @@ impl Values {
 impl From<Span> for Values {
     fn from(span: Span) -> Self {
         Self::Span(span)
-    }
-}
-
-impl Serialize for Values {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Span(span) => span.serialize(to),
-            Self::Listed(values) => values.serialize(to),
-        }
     }
 }
 

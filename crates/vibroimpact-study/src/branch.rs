@@ -60,6 +60,13 @@ const fn points() -> u32 {
 }
 
 impl<V> BranchPlan<V> {
+    /// The branch of the motion from the start, up to a value.
+    #[must_use]
+    pub const fn new(vary: V, to: f64) -> Self {
+        let points = DEFAULT_BRANCH_POINTS;
+        Self { label: None, vary, to, back: None, also: None, orbit: None, follow: 0, points }
+    }
+
     /// The same with other names of the numbers that vary.
     pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<BranchPlan<W>, E> {
         let Self { label, to, back, orbit, follow, points, .. } = self;
@@ -192,18 +199,8 @@ mod tests {
     }
 
     fn plan() -> (SystemPlan, BranchPlan) {
-        let system = SystemPlan { inverse_beta: Some(1.11), gap: 1.5, restitution: 0.5, ..SystemPlan::default() };
-        let branch = BranchPlan {
-            label: Some("1/1".into()),
-            vary: Parameter::Gap,
-            to: 2.5,
-            back: None,
-            also: None,
-            orbit: None,
-            follow: 0,
-            points: 5000,
-        };
-        (system, branch)
+        let system = SystemPlan::from_inverse_beta(1.11, 1.5, 0.5);
+        (system, BranchPlan { label: Some("1/1".into()), ..BranchPlan::new(Parameter::Gap, 2.5) })
     }
 
     #[test]
@@ -273,7 +270,7 @@ mod tests {
 
     #[test]
     fn an_orbit_that_rests() {
-        let system = SystemPlan { inverse_beta: Some(1.11), gap: -0.5, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.11, -0.5, 0.5);
         let plan = BranchPlan { label: Some("inf/1".into()), to: -0.2, ..plan().1 };
         let found = branches(&system, &plan, &Control::default()).unwrap();
         let [branch] = found.followed.as_slice() else { panic!("{} branches", found.followed.len()) };

@@ -42,7 +42,7 @@ mod tests {
     }
 
     fn at(inverse_beta: f64, gap: f64) -> SystemPlan {
-        SystemPlan { inverse_beta: Some(inverse_beta), gap, restitution: 0.5, ..SystemPlan::default() }
+        SystemPlan::from_inverse_beta(inverse_beta, gap, 0.5)
     }
 
     #[test]

@@ -73,6 +73,12 @@ pub struct CurvePlan<V = Parameter> {
 }
 
 impl<V> CurvePlan<V> {
+    /// The curve through the nearest event of the orbit with a label.
+    #[must_use]
+    pub fn new(label: &str, kind: FollowedEvent, vary: Stretch<V>, and: Stretch<V>) -> Self {
+        Self { label: Some(label.to_owned()), kind, vary, and, orbit: None, event: None, points: None }
+    }
+
     /// The same with other names of the numbers that vary.
     pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<CurvePlan<W>, E> {
         let Self { label, kind, orbit, event, points, .. } = self;
@@ -203,21 +209,10 @@ mod tests {
     use crate::{Body, Parameter, Plan, Task};
 
     fn plan() -> (SystemPlan, CurvePlan) {
-        let system = SystemPlan { inverse_beta: Some(1.11), gap: 1.5, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.11, 1.5, 0.5);
         let vary = Stretch { parameter: Parameter::Gap, from: 0.0, to: 3.0 };
         let and = Stretch { parameter: Parameter::InverseBeta, from: 1.05, to: 1.2 };
-        (
-            system,
-            CurvePlan {
-                label: Some("1/1".into()),
-                kind: FollowedEvent::Flip,
-                vary,
-                and,
-                orbit: None,
-                event: None,
-                points: None,
-            },
-        )
+        (system, CurvePlan::new("1/1", FollowedEvent::Flip, vary, and))
     }
 
     #[test]
@@ -251,16 +246,7 @@ mod tests {
         let system = SystemPlan::of_body(&body).unwrap();
         let over = |number, from, to| Stretch { parameter: Parameter::Body(number), from, to };
         let flip = |vary, and| {
-            let plan = CurvePlan {
-                label: Some("1/1".into()),
-                kind: FollowedEvent::Flip,
-                vary,
-                and,
-                orbit: None,
-                event: None,
-                points: None,
-            };
-            curve(&system, &plan, &Control::default()).unwrap()
+            curve(&system, &CurvePlan::new("1/1", FollowedEvent::Flip, vary, and), &Control::default()).unwrap()
         };
         use crate::BodyNumber::{Force, Gap, Stiffness};
         let line = flip(over(Gap, 0.0, 9e-3), over(Force, 15.0, 60.0));
@@ -316,18 +302,8 @@ mod tests_of_machines {
         let entry = CATALOGUE.iter().find(|entry| entry.name == "bouncing-ball").unwrap();
         let source = entry.source().unwrap().with("Gamma", 1.2).unwrap();
         let stretch = |path: &str, from, to| Stretch { parameter: path.to_owned(), from, to };
-        Plan::new(
-            source,
-            Task::from(CurvePlan {
-                label: Some("1/1".to_owned()),
-                orbit: None,
-                kind,
-                vary: stretch("Gamma", 0.2, 3.0),
-                and: stretch("e", 0.2, 0.9),
-                event,
-                points: Some(500),
-            }),
-        )
+        let usual = CurvePlan::new("1/1", kind, stretch("Gamma", 0.2, 3.0), stretch("e", 0.2, 0.9));
+        Plan::new(source, Task::from(CurvePlan { event, points: Some(500), ..usual }))
     }
 
     /// The fold of the ball on a table in closed form.

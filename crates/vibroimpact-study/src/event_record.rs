@@ -4,7 +4,7 @@ use vibroimpact::Side;
 use vibroimpact::continuation::{BranchEvent, Change, SolutionPoint};
 
 /// An event of a branch. Fields that do not apply to its kind are `None`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct EventRecord {
     /// Name of the kind of event.
     pub kind: &'static str,
@@ -40,12 +40,7 @@ impl EventRecord {
             ends: event.ends(),
             label_after: (!event.ends()).then(|| label.clone()),
             label_before: label.clone(),
-            change: None,
-            impact: None,
-            side: None,
-            phase: None,
-            turns: None,
-            also: None,
+            ..Self::default()
         };
         match *event {
             BranchEvent::Grazing { change, impact, side, phase, before, after, turns, also } => Self {

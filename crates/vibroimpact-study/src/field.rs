@@ -47,6 +47,29 @@ pub struct Field {
 }
 
 impl Field {
+    /// A field of real numbers.
+    pub(crate) fn real(
+        name: impl Into<Cow<'static, str>>,
+        long_name: impl Into<Cow<'static, str>>,
+        unit: Unit,
+        extra: &[Extra],
+    ) -> Self {
+        let (name, long_name, extra) = (name.into(), long_name.into(), extra.to_vec());
+        Self { name, long_name, unit, kind: NumberType::F64, fill: 0, extra, flags: Vec::new(), comment: "" }
+    }
+
+    /// A field of integers. The first of the special values stands for points where nothing was computed.
+    pub(crate) fn integers(
+        name: &'static str,
+        long_name: &'static str,
+        kind: NumberType,
+        extra: &[Extra],
+        flags: &[(i32, &'static str)],
+    ) -> Self {
+        let fill = flags.first().map_or(0, |(value, _)| *value);
+        Self { kind, fill, flags: flags.to_vec(), ..Self::real(name, long_name, Unit::NUMBER, extra) }
+    }
+
     /// Number of values for each point of the grid.
     #[must_use]
     pub fn width(&self) -> usize {
@@ -162,16 +185,8 @@ mod tests {
 
     #[test]
     fn empty_columns_hold_the_fill() {
-        let field = Field {
-            name: "label".into(),
-            long_name: "".into(),
-            unit: Unit::NUMBER,
-            kind: NumberType::I32,
-            fill: -9,
-            extra: vec![Extra { name: "motion", count: 3 }],
-            flags: Vec::new(),
-            comment: "",
-        };
+        let extra = [Extra { name: "motion", count: 3 }];
+        let field = Field::integers("label", "", NumberType::I32, &extra, &[(-9, "not_computed")]);
         assert_eq!(field.empty(2).whole(), [-9; 6]);
         let real = Field { kind: NumberType::F64, ..field };
         assert_eq!(real.empty(2), real.empty(2));

@@ -235,15 +235,7 @@ mod tests {
     use super::*;
     use crate::{BasinPlan, Parameter, SimulatePlan, Stretch};
 
-    const SYSTEM: SystemPlan = SystemPlan {
-        beta: None,
-        inverse_beta: Some(1.3),
-        gap: 0.75,
-        restitution: 0.5,
-        damping: 0.0,
-        second_stop: None,
-        body: None,
-    };
+    const SYSTEM: SystemPlan = SystemPlan::from_inverse_beta(1.3, 0.75, 0.5);
 
     fn plan() -> Plan {
         let basin = BasinPlan::plane("-3:0.75:4".parse().unwrap(), "-1:1:3".parse().unwrap(), 0.0);

@@ -1,7 +1,7 @@
 //! Lists of quantities, as they are written in plans.
 
 use crate::PlanError;
-use crate::field::{Extra, Field, NumberType};
+use crate::field::{Extra, Field};
 use crate::unit::Unit;
 use vibroimpact::machine::Machine;
 pub use vibroimpact::quantities::{Quantities, Quantity};
@@ -16,17 +16,8 @@ pub fn unknown(name: &str) -> String {
 }
 
 /// The field of a quantity, with these dimensions in addition to those of the grid.
-pub(crate) fn field(quantity: Quantity, extra: Vec<Extra>) -> Field {
-    Field {
-        name: quantity.name().into(),
-        long_name: quantity.description().into(),
-        unit: Unit::nondimensional(quantity.kind()),
-        kind: NumberType::F64,
-        fill: 0,
-        extra,
-        flags: Vec::new(),
-        comment: "",
-    }
+pub(crate) fn field(quantity: Quantity, extra: &[Extra]) -> Field {
+    Field::real(quantity.name(), quantity.description(), Unit::nondimensional(quantity.kind()), extra)
 }
 
 /// The values of a list of quantities; not-a-number where they are not defined.

@@ -206,7 +206,7 @@ mod tests {
     use crate::dynamics::at_rest;
 
     fn plan() -> (SystemPlan, RegionPlan) {
-        let system = SystemPlan { inverse_beta: Some(1.05), gap: 1.0, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.05, 1.0, 0.5);
         let across = Stretch { parameter: Parameter::InverseBeta, from: 1.05, to: 1.2 };
         let up = Stretch { parameter: Parameter::Gap, from: 1.0, to: 2.5 };
         (system, RegionPlan { label: "1/1".into(), across, up, grid: 5 })

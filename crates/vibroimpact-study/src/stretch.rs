@@ -155,7 +155,7 @@ mod tests {
 
     #[test]
     fn planes_that_make_no_sense() {
-        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.0, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.3, 0.0, 0.5);
         let over = |parameter, from, to| Stretch { parameter, from, to };
         let gap = over(Parameter::Gap, -1.0, 5.0);
         assert_eq!(check_plane(&system, &over(Parameter::InverseBeta, 0.4, 2.0), &gap), Ok(()));

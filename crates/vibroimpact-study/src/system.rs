@@ -79,6 +79,13 @@ pub struct SecondStop {
 }
 
 impl SystemPlan {
+    /// An undamped oscillator with one stop.
+    #[must_use]
+    pub const fn from_inverse_beta(inverse_beta: f64, gap: f64, restitution: f64) -> Self {
+        let (beta, inverse_beta) = (None, Some(inverse_beta));
+        Self { beta, inverse_beta, gap, restitution, damping: 0.0, second_stop: None, body: None }
+    }
+
     /// The system of a body.
     ///
     /// # Errors

@@ -7,15 +7,9 @@ use vibroimpact_study::SystemPlan;
 fn systems() -> impl Iterator<Item = SystemPlan> {
     (0..400_u32).map(|k| {
         let part = |p: f64| (f64::from(k) * p).fract();
-        SystemPlan {
-            inverse_beta: Some(0.05 + 2.4 * part(0.754_877_666)),
-            gap: -0.9 + 2.9 * part(0.569_840_296),
-            restitution: part(0.362_105_1),
-            damping: if k % 3 == 0 { 0.1 * part(0.23) } else { 0.0 },
-            second_stop: None,
-            body: None,
-            beta: None,
-        }
+        let (inverse_beta, gap) = (0.05 + 2.4 * part(0.754_877_666), -0.9 + 2.9 * part(0.569_840_296));
+        let damping = if k % 3 == 0 { 0.1 * part(0.23) } else { 0.0 };
+        SystemPlan { damping, ..SystemPlan::from_inverse_beta(inverse_beta, gap, part(0.362_105_1)) }
     })
 }
 

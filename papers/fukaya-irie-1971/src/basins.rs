@@ -54,12 +54,7 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<Shares, Error> {
         let (x, v) = (Span::new(lowest, point.gap, n)?, Span::new(-fastest, fastest, n)?);
         let plan = BasinPlan::plane(x, v, 0.0);
         run.stage(stage, u64::from(n) * u64::from(n))?;
-        let system = SystemPlan {
-            inverse_beta: Some(point.inverse_beta),
-            gap: point.gap,
-            restitution: 0.5,
-            ..SystemPlan::default()
-        };
+        let system = SystemPlan::from_inverse_beta(point.inverse_beta, point.gap, 0.5);
         let plan = Plan::new(system, Task::from(plan));
         let PlanResults::Oscillator(Results::Basin(basin)) = vibroimpact_study::run(&plan, run.control)? else {
             return Err(Error::Unexpected("a basin came out as something else"));

@@ -24,7 +24,7 @@ fn existence(section: &mut Section, grid: &Grid) {
         let labels: Vec<String> = grid
             .labels()
             .into_iter()
-            .filter(|(label, _)| numbers(label).is_some_and(|(m, n)| test(m, n)))
+            .filter(|(label, _)| looks::numbers(label).is_some_and(|(m, n)| test(m, n)))
             .map(|(label, _)| label)
             .collect();
         labels.len()
@@ -104,9 +104,4 @@ fn amplitude(section: &mut Section, grid: &Grid) {
         ),
         Agreement::of(below.0 == 0 && above.0 > 0, !elsewhere),
     );
-}
-
-fn numbers(label: &str) -> Option<(u32, u32)> {
-    let (m, n) = label.split_once('/')?;
-    Some((m.parse().ok()?, n.parse().ok()?))
 }

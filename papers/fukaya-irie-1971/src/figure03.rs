@@ -110,11 +110,7 @@ fn same(ours: &str, rule: &str) -> bool {
 
 /// Whether the m/n of the rule is our motion counted over several periods.
 fn repeated(ours: &str, rule: &str) -> bool {
-    let numbers = |label: &str| -> Option<(u32, u32)> {
-        let (m, n) = label.split_once('/')?;
-        Some((m.parse().ok()?, n.parse().ok()?))
-    };
-    match (numbers(ours), numbers(rule)) {
+    match (looks::numbers(ours), looks::numbers(rule)) {
         (Some((m, n)), Some((km, kn))) => km > m && km.is_multiple_of(m) && km / m * n == kn,
         _ => false,
     }

@@ -23,6 +23,12 @@ pub(crate) fn legend<'a>(labels: impl Iterator<Item = &'a str>) -> Legend {
         .fold(Legend::below(), |legend, (_, group)| legend.patch(class_style(group), legend_text(group)))
 }
 
+/// The numbers m and n of a label m/n.
+pub(crate) fn numbers(label: &str) -> Option<(u32, u32)> {
+    let (m, n) = label.split_once('/')?;
+    Some((m.parse().ok()?, n.parse().ok()?))
+}
+
 /// A figure for one column, with its height in units of 1/8 mm.
 pub(crate) fn column(panel: vibroimpact_plot::Panel, height: f64) -> Figure {
     Figure::new(panel).size(vibroimpact_plot::COLUMN, height)

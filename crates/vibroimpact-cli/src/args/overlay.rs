@@ -41,15 +41,9 @@ enum LayerName {
 }
 
 impl LayerName {
-    const fn layer(self) -> Option<Layer> {
-        match self {
-            Self::Regions => Some(Layer::Regions),
-            Self::Amplitude => Some(Layer::Amplitude),
-            Self::Paper => Some(Layer::Paper),
-            Self::Stripes => Some(Layer::Stripes),
-            Self::Boundaries => Some(Layer::Boundaries),
-            Self::None => None,
-        }
+    /// The layers have the same order, and none is after the last.
+    fn layer(self) -> Option<Layer> {
+        Layer::ALL.get(self as usize).copied()
     }
 }
 

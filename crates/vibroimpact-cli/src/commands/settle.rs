@@ -75,17 +75,6 @@ enum Views {
     Sections,
 }
 
-impl From<Views> for View {
-    fn from(view: Views) -> Self {
-        match view {
-            Views::Waveform => Self::Waveform,
-            Views::Phase => Self::Phase,
-            Views::Multipliers => Self::Multipliers,
-            Views::Sections => Self::Sections,
-        }
-    }
-}
-
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Rule {
     /// Recurrence, confirmed by Newton's method
@@ -117,7 +106,8 @@ impl Settle {
         if self.show.is_some() && !self.output.any_file() {
             return Err(Failure::bad("--show says what is drawn or written: it belongs to --plot and --csv"));
         }
-        Ok(Shown { view: self.show.map(View::from), ..Shown::default() })
+        // views have the same order
+        Ok(Shown { view: self.show.map(|view| View::ALL[view as usize]), ..Shown::default() })
     }
 
     fn paper_rule(&self) -> Result<Option<PaperRule>, Failure> {

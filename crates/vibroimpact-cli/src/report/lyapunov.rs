@@ -6,7 +6,6 @@ use std::fmt::Write;
 use vibroimpact::chaos::{Exponents, Grounds, Measured};
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::NoImpact;
-use vibroimpact_report::json::lyapunov::scaled;
 use vibroimpact_report::number::short;
 use vibroimpact_report::{AnswerOf, Units};
 use vibroimpact_study::machine::MachineSource;
@@ -51,7 +50,7 @@ impl Told {
         let mut heads = vec!["<".to_owned(), format!("<per {}", self.time)];
         heads.extend(self.period.map(|_| "<per forcing period".to_owned()));
         let row = |(name, of): &(String, Measured)| {
-            let per_period = self.period.map(|period| said(scaled(*of, period)));
+            let per_period = self.period.map(|period| said(of.scaled(period)));
             [name.clone(), said(*of)].into_iter().chain(per_period).collect()
         };
         let rows: Vec<Vec<String>> = self.exponents.iter().map(row).collect();
@@ -77,7 +76,7 @@ impl Told {
 
 /// The motion, its exponents, and how they were obtained.
 pub(crate) fn text(found: &Exponents, period: f64, units: &Units) -> String {
-    let per_time = |of: Measured| scaled(of, 1.0 / units.time());
+    let per_time = |of: Measured| of.scaled(1.0 / units.time());
     let names = ["larger exponent", "smaller exponent", "their sum"];
     let exponents = names.into_iter().zip(found.exponents.iter().copied().chain([found.sum]));
     let told = Told {
@@ -85,7 +84,7 @@ pub(crate) fn text(found: &Exponents, period: f64, units: &Units) -> String {
         time: if units.si { "second" } else { "unit of time" },
         exponents: exponents.map(|(name, of)| (name.to_owned(), per_time(of))).collect(),
         period: Some(period * units.time()),
-        impacts_per_period: Some(scaled(found.impact_rate, period)),
+        impacts_per_period: Some(found.impact_rate.scaled(period)),
         dimensions: found.section_dimension.zip(found.flow_dimension),
         space: "x, v and phase",
         grounds: grounds(found, units),
@@ -104,7 +103,7 @@ pub(crate) fn of_machine(found: &Exponents<Machine>, of: &AnswerOf<MachineSource
         time: "unit of time",
         exponents: exponents.map(|(k, of)| (format!("exponent {}", k + 1), *of)).collect(),
         period: machine.period(),
-        impacts_per_period: period.map(|period| scaled(found.impact_rate, period)),
+        impacts_per_period: period.map(|period| found.impact_rate.scaled(period)),
         dimensions: found.section_dimension.zip(found.flow_dimension),
         space: "coordinates, velocities and phase",
         grounds: match found.grounds {

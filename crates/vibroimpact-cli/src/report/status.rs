@@ -4,8 +4,7 @@ use crate::failure::Failure;
 use crate::report::stored::title;
 use crate::report::tallies::{damaged, undecided};
 use crate::session::Session;
-use serde::Serialize;
-use serde::ser::{SerializeMap, Serializer};
+use serde::{Serialize, Serializer};
 use std::time::{Duration, SystemTime};
 use vibroimpact_store::{Progress, RegionCost, Store, TileCosts};
 use vibroimpact_study::{Grid, Plan, counted};
@@ -94,12 +93,8 @@ struct Sides<'a>(&'a Grid, Option<&'a [usize]>);
 
 impl Serialize for Sides<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        for (k, dimension) in self.0.dimensions.iter().enumerate() {
-            let tiles = self.1.map_or(1, |shard| shard[k]);
-            map.serialize_entry(&dimension.name, &(tiles * dimension.tile))?;
-        }
-        map.end()
+        let sides = self.0.dimensions.iter().enumerate();
+        serializer.collect_map(sides.map(|(k, of)| (&of.name, self.1.map_or(1, |shard| shard[k]) * of.tile)))
     }
 }
 
@@ -107,11 +102,7 @@ struct Ranges<'a>(&'a Grid, Vec<(usize, usize)>);
 
 impl Serialize for Ranges<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        for (dimension, range) in self.0.dimensions.iter().zip(&self.1) {
-            map.serialize_entry(&dimension.name, range)?;
-        }
-        map.end()
+        serializer.collect_map(self.0.dimensions.iter().map(|of| &of.name).zip(&self.1))
     }
 }
 

@@ -35,15 +35,6 @@ const PERIODS: f64 = 24.0;
 /// The largest number of events in the waveform of a settled motion.
 const MOST_EVENTS: usize = 200_000;
 
-/// The title of a figure of ordinary width: that of the machine file. A long title is cut at its first colon, or replaced
-/// by `name`.
-fn machine_title(machine: &MachineSource, name: &str) -> String {
-    let title = machine.title.as_deref().unwrap_or(name);
-    let part = title.split_once(": ").map_or(title, |(part, _)| part);
-    let fits = [title, part, name].into_iter().find(|text| text.chars().count() <= TITLE);
-    plain(fits.unwrap_or(name))
-}
-
 impl AnswerOf<MachineSource> {
     /// A state of a settled motion, and the time over which it is shown: one period of a cycle, [`PERIODS`] forcing periods of
     /// another motion.
@@ -132,8 +123,12 @@ impl Told for MachineSource {
         Ok(ResponseView::of_machine(found, plan, &of.system))
     }
 
+    /// That of the machine file. A long title is cut at its first colon, or replaced by `name`.
     fn title(&self, name: &str, _: &Units, _: &[&str]) -> String {
-        machine_title(self, name)
+        let title = self.title.as_deref().unwrap_or(name);
+        let part = title.split_once(": ").map_or(title, |(part, _)| part);
+        let fits = [title, part, name].into_iter().find(|text| text.chars().count() <= TITLE);
+        plain(fits.unwrap_or(name))
     }
 
     fn speeds(_: &AnswerOf<Self>) -> [String; 2] {
@@ -155,7 +150,8 @@ impl Told for MachineSource {
 
     fn settled_figure(of: &AnswerOf<Self>, found: &Settled<Machine>, view: View) -> Result<Figure, AnswerError> {
         let (from, time) = of.steady(&found.verdict)?;
-        let title = format!("{}: {}", machine_title(&of.written, &of.name), figure::label(&found.verdict.label()));
+        let title =
+            format!("{}: {}", of.written.title(&of.name, &of.units, &[]), figure::label(&found.verdict.label()));
         Ok(match (view, &found.verdict) {
             (View::Waveform, _) => of.waveform(&from, time, title)?,
             (View::Phase, _) => scene::machine_portrait(&of.system, (&from, time), title)?,
@@ -168,7 +164,7 @@ impl Told for MachineSource {
     }
 
     fn section_figure(of: &AnswerOf<Self>, found: &Exponents<Machine>, points: &SectionPoints) -> Figure {
-        let title = format!("{}: {}", machine_title(&of.written, &of.name), figure::label(&found.motion.label()));
+        let title = format!("{}: {}", of.written.title(&of.name, &of.units, &[]), figure::label(&found.motion.label()));
         figure::section::of_machine(points, &of.system, title)
     }
 

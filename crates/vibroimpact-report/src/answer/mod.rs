@@ -16,7 +16,7 @@ use crate::json::curve::CurveAnswer;
 use crate::json::orbit::OrbitAnswer;
 use crate::scene::View;
 use crate::{AnswerError, ReportError, Table, Units, table};
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use vibroimpact::verdict::{CountedMotion, PaperRule, PaperVerdict};
 use vibroimpact_plot::{Figure, plain};
 use vibroimpact_study::diagram::{Diagram, ShowText};
@@ -27,7 +27,8 @@ use vibroimpact_study::{
 };
 
 /// A plan and its result, in memory. Its [`Serialize`] form is the JSON object that the command prints with `--json`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
+#[serde(untagged)]
 pub enum Answer {
     /// Of an oscillator.
     Oscillator(Box<AnswerOf<SystemPlan>>),
@@ -111,15 +112,6 @@ fn answer_of<D: Dynamics>(
     let setup = written.setup_of(&plan.task)?;
     let (system, start, plan, name) = (setup.system, setup.start, plan.clone(), name.to_owned());
     Ok(Box::new(AnswerOf { plan, name, written, system, start, units, results, paper_rule: None }))
-}
-
-impl Serialize for Answer {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Oscillator(answer) => answer.serialize(to),
-            Self::Machine(answer) => answer.serialize(to),
-        }
-    }
 }
 
 impl Answer {

@@ -180,15 +180,7 @@ mod tests {
     use core::sync::atomic::Ordering;
     use vibroimpact_study::{Control, Plan, PlanError, StartPlan, SystemPlan, Task};
 
-    const S: SystemPlan = SystemPlan {
-        beta: None,
-        inverse_beta: Some(1.3),
-        gap: 0.75,
-        restitution: 0.5,
-        damping: 0.0,
-        second_stop: None,
-        body: None,
-    };
+    const S: SystemPlan = SystemPlan::from_inverse_beta(1.3, 0.75, 0.5);
 
     #[test]
     fn an_answer_goes_to_another_thread() {

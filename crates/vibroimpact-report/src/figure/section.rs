@@ -185,7 +185,7 @@ mod tests {
     /// rounding.
     #[test]
     fn f10_rounding_is_no_structure() {
-        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.3, 0.75, 0.5);
         let (asked, osc) = (Asked { system, units: Units::default() }, system.oscillator().unwrap());
         for (x, v, velocity) in [(0.3, -1.2, 2.0), (0.0, 1e-17, 1e-9), (0.75, 0.0, 3.0)] {
             let off = |k: u32| f64::from(k % 3) * 1e-15;

@@ -268,7 +268,7 @@ mod tests {
             let (range, options) = (gap..=to, BranchOptions::default());
             let branch = Branch::new(&osc, &orbit.cycle, Parameter::Gap, range, Direction::Up, options).unwrap();
             let points: Vec<SolutionPoint> = branch.collect();
-            let system = SystemPlan { inverse_beta: Some(inverse), gap, restitution: 0.5, ..SystemPlan::default() };
+            let system = SystemPlan::from_inverse_beta(inverse, gap, 0.5);
             let curves = Track::of(&with_points(&points, Parameter::Gap, system), Shown::Speeds)[0].curves();
             for (xs, ys) in curves.values() {
                 for pair in xs.iter().zip(ys).collect::<Vec<_>>().windows(2) {

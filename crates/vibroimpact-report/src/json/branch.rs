@@ -98,7 +98,7 @@ pub struct OriginObject {
 }
 
 /// A point of a branch.
-#[derive(JsonSchema, Serialize)]
+#[derive(Default, JsonSchema, Serialize)]
 pub struct PointObject<'a> {
     /// The value of the parameter.
     pub parameter: f64,
@@ -343,12 +343,10 @@ impl PointObject<'static> {
             period,
             cycle: osc.map_or_else(Vec::new, |osc| event::of_cycle(&osc, cycle, &there)),
             multipliers: multipliers(&cycle.multipliers),
-            drift: None,
-            quantities: None,
             stable: point.stable(),
             stability: point.stability().name(),
             admissible: point.physical,
-            strobes: Vec::new(),
+            ..Self::default()
         }
     }
 }
@@ -374,7 +372,7 @@ impl<'a> PointObject<'a> {
             stability: cycle.stability().name(),
             // a branch of a machine ends where its orbit ceases to be admissible
             admissible: true,
-            strobes: Vec::new(),
+            ..Self::default()
         }
     }
 }

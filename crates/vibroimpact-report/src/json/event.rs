@@ -42,7 +42,7 @@ impl Stops for Machine {
 }
 
 /// An event of a motion.
-#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, JsonSchema, PartialEq, Serialize)]
 pub struct EventObject<'a> {
     /// Its kind: `impact`, `close`, `open`, `stick`, `release`, `slip`, `hold`, `graze` or `collapse`.
     pub kind: &'static str,
@@ -95,17 +95,9 @@ impl EventObject<'static> {
             stop: side(event.side),
             time: event.time * units.time(),
             phase: Some(event.phase),
-            speed: 0.0,
-            direction: None,
             q: vec![stop].into(),
             qdot: vec![0.0].into(),
-            with: Vec::new(),
-            tie: false,
-            depth: None,
-            chatter: None,
-            error: None,
-            contacts: None,
-            exact: None,
+            ..Self::default()
         };
         match event.kind {
             EventKind::Impact { velocity_before, velocity_after } => Self {
@@ -265,10 +257,8 @@ pub fn of_machine<'a>(machine: &'a Machine, event: &'a events::Event) -> EventOb
         qdot: (&event.qdot).into(),
         with: event.with.iter().map(|place| machine.name_of(*place)).collect(),
         tie: event.tie,
-        depth: None,
-        chatter: None,
-        error: None,
         contacts: event.state.as_ref().map(|state| contacts(machine, state)),
         exact: event.state.as_ref().map(|state| exact(state)),
+        ..EventObject::default()
     }
 }

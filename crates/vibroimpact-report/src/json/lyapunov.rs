@@ -58,7 +58,7 @@ enum GroundsObject {
 
 impl<'a> LyapunovAnswer<'a> {
     pub(crate) fn of_oscillator(found: &'a Exponents, osc: &Oscillator, units: &Units) -> Self {
-        let per_time = |of: Measured| Estimate::from(scaled(of, 1.0 / units.time()));
+        let per_time = |of: Measured| Estimate::from(of.scaled(1.0 / units.time()));
         let identity = found.identity / units.time();
         Self {
             motion: MotionObject::of_oscillator(&found.motion, osc, units).without_lyapunov(),
@@ -91,12 +91,12 @@ impl<'a> LyapunovAnswer<'a> {
     pub(crate) fn of_machine(machine: &'a Machine, found: &'a Exponents<Machine>) -> Self {
         let known = !matches!(found.grounds, Grounds::Undecided { .. });
         let period = machine.period().filter(|_| known);
-        let all = |factor: f64| found.exponents.iter().map(|of| Estimate::from(scaled(*of, factor))).collect();
+        let all = |factor: f64| found.exponents.iter().map(|of| Estimate::from(of.scaled(factor))).collect();
         Self {
             motion: MotionObject::of_machine(machine, &found.motion),
             exponents: known.then(|| all(1.0)),
             exponents_per_period: period.map(all),
-            impacts_per_period: period.map(|period| Estimate::from(scaled(found.impact_rate, period))),
+            impacts_per_period: period.map(|period| Estimate::from(found.impact_rate.scaled(period))),
             exact: found.exact(),
             sum: None,
             identity: None,
@@ -107,10 +107,4 @@ impl<'a> LyapunovAnswer<'a> {
             grounds: None,
         }
     }
-}
-
-/// A measured number and its error, multiplied by a factor.
-#[must_use]
-pub fn scaled(of: Measured, factor: f64) -> Measured {
-    Measured { value: of.value * factor, error: of.error * factor }
 }

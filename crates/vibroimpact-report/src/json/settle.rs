@@ -12,7 +12,7 @@ use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled, Verdict};
 use vibroimpact::{Oscillator, Start};
 
 /// The answer to `vibro settle`.
-#[derive(JsonSchema, Serialize)]
+#[derive(Default, JsonSchema, Serialize)]
 pub struct SettleAnswer<'a> {
     /// The motion.
     motion: MotionObject<'a>,
@@ -109,23 +109,17 @@ impl<'a> SettleAnswer<'a> {
             events_followed: settled.impacts,
             time_followed: settled.time * units.time(),
             chaotic_transient: settled.transient.as_ref().map(|chaos| ChaosObject::of_oscillator(chaos, units)),
-            harmonics: Vec::new(),
-            transient: None,
-            paper_rule: None,
+            ..Self::default()
         }
     }
-}
 
-impl<'a> SettleAnswer<'a> {
     pub(crate) fn of_machine(machine: &'a Machine, settled: &'a Settled<Machine>) -> Self {
         Self {
             motion: MotionObject::of_machine(machine, &settled.verdict),
             events_followed: settled.impacts,
             time_followed: settled.time,
             chaotic_transient: settled.transient.as_ref().map(ChaosObject::of_machine),
-            harmonics: Vec::new(),
-            transient: None,
-            paper_rule: None,
+            ..Self::default()
         }
     }
 }

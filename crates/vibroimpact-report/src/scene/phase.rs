@@ -161,7 +161,7 @@ mod tests {
     /// stop.
     #[test]
     fn an_impact_is_a_jump_on_the_stop() {
-        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.3, 0.75, 0.5);
         let (asked, osc) = (Asked { system, units: Units::default() }, system.oscillator().unwrap());
         for from in [0.0, 40.0] {
             let figure = phase_portrait(&asked, &osc, Start::at_rest(&osc), (from, 80.0));

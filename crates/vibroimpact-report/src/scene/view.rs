@@ -120,7 +120,7 @@ mod tests {
 
     #[test]
     fn f10_each_view_has_a_figure_and_a_table_of_its_own() {
-        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.3, 0.75, 0.5);
         let (asked, osc) = (Asked { system, units: Units::default() }, system.oscillator().unwrap());
         let start = Start::at_rest(&osc);
         let settled = settle(&osc, start, &SettleOptions::default());

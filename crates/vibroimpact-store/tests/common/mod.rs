@@ -3,22 +3,15 @@
 #![allow(clippy::unwrap_used, unreachable_pub, dead_code)] // each program of tests uses a part of it
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::Path;
-use std::sync::Arc;
-use vibroimpact_store::{Folder, Part, Store};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
+use std::{fs, io};
+use vibroimpact_store::{Folder, Item, Part, Shelf, Store, StoreError};
 use vibroimpact_study::{BasinPlan, Control, MapPlan, Plan, SystemPlan, Task};
 
 /// The system of the plans.
-pub const S: SystemPlan = SystemPlan {
-    beta: None,
-    inverse_beta: Some(1.3),
-    gap: 0.75,
-    restitution: 0.5,
-    damping: 0.0,
-    second_stop: None,
-    body: None,
-};
+pub const S: SystemPlan = SystemPlan::from_inverse_beta(1.3, 0.75, 0.5);
 
 /// A basin of 20 tiles.
 pub fn basin() -> Plan {
@@ -40,9 +33,66 @@ pub fn map() -> Plan {
     Plan { tile: Some(4), ..Plan::new(system, Task::from(task)) }
 }
 
+/// The plans of 20 and 12 tiles, with shards of 2 by 2 and 3 by 3 tiles.
+pub fn sharded() -> [Plan; 2] {
+    [Plan { shard: Some(2), ..basin() }, Plan { shard: Some(3), ..map() }]
+}
+
 /// The store of a plan in a folder.
 pub fn open(folder: &Path, plan: &Plan) -> Store {
     Store::create(Arc::new(Folder::new(folder)), plan).unwrap()
+}
+
+/// The store in a folder, without its plan.
+pub fn again(folder: &Path) -> Store {
+    Store::open(Arc::new(Folder::new(folder))).unwrap()
+}
+
+/// What is done with an object of a folder.
+#[derive(Clone, Copy, Eq, PartialEq)]
+pub enum Access {
+    Read,
+    Put,
+    Remove,
+}
+
+type Before = Box<dyn Fn(Access, &str) -> io::Result<()> + Send + Sync>;
+
+struct Watched(Folder, Before);
+
+/// A folder that calls `before` with each access and its key just before it; an error of it is that of the access.
+pub fn watched(
+    folder: &Path,
+    before: impl Fn(Access, &str) -> io::Result<()> + Send + Sync + 'static,
+) -> Arc<dyn Shelf> {
+    Arc::new(Watched(Folder::new(folder), Box::new(before)))
+}
+
+impl Shelf for Watched {
+    fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
+        (self.1)(Access::Read, key).and_then(|()| self.0.get(key))
+    }
+    fn tail(&self, key: &str, count: usize) -> io::Result<Option<(Vec<u8>, u64)>> {
+        (self.1)(Access::Read, key).and_then(|()| self.0.tail(key, count))
+    }
+    fn range(&self, key: &str, from: u64, count: u64) -> io::Result<Option<Vec<u8>>> {
+        (self.1)(Access::Read, key).and_then(|()| self.0.range(key, from, count))
+    }
+    fn put(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
+        (self.1)(Access::Put, key).and_then(|()| self.0.put(key, bytes))
+    }
+    fn remove(&self, key: &str) -> io::Result<()> {
+        (self.1)(Access::Remove, key).and_then(|()| self.0.remove(key))
+    }
+    fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
+        (self.1)(Access::Read, prefix).and_then(|()| self.0.list(prefix))
+    }
+    fn sweep(&self) -> io::Result<()> {
+        self.0.sweep()
+    }
+    fn name(&self) -> String {
+        self.0.name()
+    }
 }
 
 /// A control with this number of threads.
@@ -75,4 +125,20 @@ pub fn whole(plan: &Plan) -> (tempfile::TempDir, BTreeMap<String, Vec<u8>>) {
     assert_eq!((ran.computed, ran.left), (store.study().grid().tiles(), 0));
     let files = files(folder.path());
     (folder, files)
+}
+
+/// Runs a store until it is complete, stopped after so many more points each time, and returns how often it was stopped.
+pub fn stopped(store: impl Fn() -> Store, points: u64, threads: usize) -> usize {
+    for stops in 0..100 {
+        let (stop, first) = (AtomicBool::new(false), OnceLock::new());
+        let progress = |now: u64| {
+            stop.fetch_or(now > first.get_or_init(|| now) + points, Ordering::Relaxed);
+        };
+        match store().run(Part::ALL, &Control { stop: &stop, progress: &progress, threads }) {
+            Ok(_) => return stops,
+            Err(StoreError::Stopped(stopped)) => assert!(stopped.done < stopped.total),
+            Err(other) => panic!("{other}"),
+        }
+    }
+    panic!("it is not complete after 100 runs")
 }

@@ -190,7 +190,7 @@ mod tests {
 
     #[test]
     fn nonsense_is_refused() {
-        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.3, 0.75, 0.5);
         let span = |text: &str| text.parse::<Span>().unwrap();
         let good = BasinPlan::plane(span("-3:0.75:4"), span("-1:1:3"), 0.0);
         assert_eq!((good.check(&system), good.starts(), good.one_system()), (Ok(()), 12, true));

@@ -75,7 +75,7 @@ pub(crate) fn step(
             scattered_machine_starts(&machine, seed, k).within_stops(&machine)
         }
         (_, _, Some(left)) => left.within_stops(&machine),
-        (_, _, None) => Start::from(source.start()?).within_stops(&machine),
+        (_, _, None) => source.start()?.within_stops(&machine),
     };
     let length = (plan.transient, plan.keep);
     let AfterTransient { kind, points, last } = match plan.shown(&machine)? {

@@ -45,6 +45,15 @@ pub struct DiagramPlan<V = Parameter, S = Show> {
     pub keep: u64,
 }
 
+impl<V, S: Default> DiagramPlan<V, S> {
+    /// The usual diagram over these values.
+    #[must_use]
+    pub fn new(vary: V, over: impl Into<Values>) -> Self {
+        let (direction, transient, keep) = (SweepDirection::default(), DEFAULT_TRANSIENT, DEFAULT_KEEP);
+        Self { vary, over: over.into(), also: None, show: S::default(), direction, transient, keep }
+    }
+}
+
 const fn transient() -> u64 {
     DEFAULT_TRANSIENT
 }
@@ -330,18 +339,11 @@ mod tests {
 
     #[test]
     fn a_plan_survives_json_and_short_ones_are_filled_in() {
-        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.0, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.3, 0.0, 0.5);
         let direction = SweepDirection::Scatter { starts: 9, seed: 4 };
-        let over = "0:3:601".parse::<Span>().unwrap().into();
-        let task = DiagramPlan {
-            vary: Parameter::Gap,
-            over,
-            also: None,
-            show: Show::Strobe,
-            direction,
-            transient: 7,
-            keep: 3,
-        };
+        let over = "0:3:601".parse::<Span>().unwrap();
+        let usual = DiagramPlan::new(Parameter::Gap, over);
+        let task = DiagramPlan { show: Show::Strobe, direction, transient: 7, keep: 3, ..usual };
         let plan = Plan::new(system, Task::from(task));
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
@@ -360,17 +362,9 @@ mod tests {
 
     #[test]
     fn nonsense_is_refused() {
-        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.0, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.3, 0.0, 0.5);
         let over = |text: &str| Values::from(text.parse::<Span>().unwrap());
-        let good = || DiagramPlan {
-            vary: Parameter::Gap,
-            over: over("0:3:601"),
-            also: None,
-            show: Show::Velocity,
-            direction: SweepDirection::Both,
-            transient: 500,
-            keep: 64,
-        };
+        let good = || DiagramPlan::new(Parameter::Gap, over("0:3:601"));
         assert_eq!(good().check(&system), Ok(()));
         for (plan, sentence) in [
             (DiagramPlan { vary: Parameter::Beta, ..good() }, "frequency ratio beta = 0 lies outside"),

@@ -1,6 +1,6 @@
 //! The motions of one system from many scattered starts, computed by several threads.
 
-use crate::study::{BasinFill, tiles_of};
+use crate::study::{BasinFill, Fill, tiles_of};
 use crate::{Control, RunError, SystemPlan, tiles};
 use vibroimpact::events::Start;
 use vibroimpact::lanes::Width;
@@ -24,7 +24,7 @@ pub(crate) fn attractors(
 ) -> Result<Census, RunError> {
     let task = BasinFill::scattered(system, (starts, seed), options, Some(TILE))?;
     let mut merged = Census::default();
-    for (_, tile) in tiles_of(&task, control)? {
+    for (_, tile) in tiles_of(task.grid(), control, |block, tick| task.compute(block, tick))? {
         for found in tile.met.motions() {
             merged.add_found(found);
         }
@@ -62,7 +62,7 @@ mod tests {
 
     #[test]
     fn as_one_after_another() {
-        let system = SystemPlan { inverse_beta: Some(0.7), gap: 2.5, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(0.7, 2.5, 0.5);
         let osc = system.oscillator().unwrap();
         let serial = vibroimpact::verdict::attractors(&osc, 100, 3, &SettleOptions::default());
         let threaded = attractors(&system, (100, 3), &SettleOptions::default(), &Control::default()).unwrap();
@@ -74,7 +74,7 @@ mod tests {
     /// With a small budget more starts are undecided, as with the same budget one after another.
     #[test]
     fn within_a_budget() {
-        let system = SystemPlan { inverse_beta: Some(1.11), gap: 3.0, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.11, 3.0, 0.5);
         let osc = system.oscillator().unwrap();
         let options = SettleOptions::at_most(50);
         let serial = vibroimpact::verdict::attractors(&osc, 30, 1, &options);

@@ -3,7 +3,7 @@
 use crate::basin::{Basin, BasinPlan, start};
 use crate::in_memory::join::{Joined, Part, joined};
 use crate::quantity::values_of;
-use crate::study::{BasinFill, BasinTile, Basins, Cell, Fill, MachineBasin, tiles_of};
+use crate::study::{BasinFill, BasinTile, Basins, Cell, Fill, MachineBasin, StoredMotion, tiles_of};
 use crate::{Block, Control, PlanError, RunError, Stopped, SystemPlan, axis};
 use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
@@ -84,14 +84,15 @@ fn all<B: Basins>(
     control: &Control<'_>,
 ) -> Result<Joined<B::System>, Stopped>
 where
-    BasinFill<B>: Fill<Tile = BasinTile<B>>,
+    Verdict<B::System>: StoredMotion,
 {
-    let parts = tiles_of(task, control)?.into_iter().map(|(block, tile)| {
-        note(&block, &tile);
-        // without refinement every start is settled
-        let number = |cell: &Cell<Option<u32>>| if let Cell::Computed(number) = cell { *number } else { None };
-        Part { block, cells: tile.cells.iter().map(number).collect(), met: tile.met }
-    });
+    let parts =
+        tiles_of(task.grid(), control, |block, tick| task.compute(block, tick))?.into_iter().map(|(block, tile)| {
+            note(&block, &tile);
+            // without refinement every start is settled
+            let number = |cell: &Cell<Option<u32>>| if let Cell::Computed(number) = cell { *number } else { None };
+            Part { block, cells: tile.cells.iter().map(number).collect(), met: tile.met }
+        });
     Ok(joined(&task.grid().whole(), parts, first))
 }
 
@@ -102,7 +103,7 @@ mod tests {
 
     #[test]
     fn the_same_for_any_number_of_threads() {
-        let osc = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
+        let osc = SystemPlan::from_inverse_beta(1.3, 0.75, 0.5);
         let plan = BasinPlan::plane("-4:0.75:50".parse().unwrap(), "-4:4:40".parse().unwrap(), 0.0);
         let run = |threads| basin(&osc, &plan, &Control { threads, ..Control::default() }).unwrap();
         let one = run(1);
@@ -121,7 +122,7 @@ mod tests {
     /// The same result when the starts are settled one after another, without lanes and trapping regions.
     #[test]
     fn the_same_as_one_by_one() {
-        let system = SystemPlan { inverse_beta: Some(1.7), gap: 2.25, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.7, 2.25, 0.5);
         let osc = system.oscillator().unwrap();
         let plan = BasinPlan::plane("-4:2.25:40".parse().unwrap(), "-4:4:30".parse().unwrap(), 0.5);
         let got = basin(&system, &plan, &Control::default()).unwrap();

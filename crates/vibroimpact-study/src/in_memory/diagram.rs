@@ -1,7 +1,7 @@
 //! An orbit diagram in memory: its tiles are joined.
 
 use crate::diagram::{Diagram, SweepDirection};
-use crate::study::{SweepFill, Swept, tiles_of};
+use crate::study::{Fill, SweepFill, Swept, tiles_of};
 use crate::{Control, RunError};
 use vibroimpact::math::sort_by_key;
 
@@ -16,7 +16,7 @@ pub(crate) fn diagram<S: Swept>(
     task: &SweepFill<S>,
     control: &Control<'_>,
 ) -> Result<Diagram<S::Number, S::Show>, RunError> {
-    let (parts, plan) = (tiles_of(task, control)?, task.plan());
+    let (parts, plan) = (tiles_of(task.grid(), control, |block, tick| task.compute(block, tick))?, task.plan());
     let mut steps = parts.into_iter().flat_map(|(_, steps)| steps).collect::<Result<Vec<_>, _>>()?;
     if let SweepDirection::Scatter { .. } = plan.direction {
         // a tile holds several starts at several values; sort by value, and at each value by start
@@ -31,30 +31,14 @@ mod tests {
     use crate::diagram::{DiagramPlan, DiagramPoint, DiagramStep, MotionKind, Show, Sweep};
     use crate::{Parameter, Span, Stretch, SystemPlan, Values};
 
-    const S: SystemPlan = SystemPlan {
-        beta: None,
-        inverse_beta: Some(1.3),
-        gap: 0.0,
-        restitution: 0.5,
-        damping: 0.0,
-        second_stop: None,
-        body: None,
-    };
+    const S: SystemPlan = SystemPlan::from_inverse_beta(1.3, 0.0, 0.5);
 
     fn span(over: &str) -> Values {
         over.parse::<Span>().unwrap().into()
     }
 
     fn plan(over: &str) -> DiagramPlan {
-        DiagramPlan {
-            vary: Parameter::Gap,
-            over: span(over),
-            also: None,
-            show: Show::Velocity,
-            direction: SweepDirection::Both,
-            transient: 200,
-            keep: 40,
-        }
+        DiagramPlan { transient: 200, keep: 40, ..DiagramPlan::new(Parameter::Gap, span(over)) }
     }
 
     fn run(system: &SystemPlan, plan: &DiagramPlan) -> Diagram {

@@ -65,7 +65,7 @@ fn joined<V: Clone, F: Clone>(plan: &MapPlan<V, F>, points: Vec<Vec<Share>>) -> 
 fn points<M: Mapped>(task: &MapFill<M>, control: &Control<'_>) -> Result<Vec<Vec<Share>>, RunError> {
     let whole = task.grid().whole();
     let mut points: Vec<Vec<Share>> = vec![Vec::new(); whole.points()];
-    for (block, tile) in tiles_of(task, control)? {
+    for (block, tile) in tiles_of(task.grid(), control, |block, tick| task.compute(block, tick))? {
         for (k, cell) in tile.into_iter().enumerate() {
             // without refinement every point is computed
             if let Cell::Computed(Ok(motions)) = cell {
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn points_in_order_with_shares_that_add_up() {
-        let system = SystemPlan { inverse_beta: Some(1.0), gap: 0.0, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.0, 0.0, 0.5);
         let plan = MapPlan::plane("0.6:1.4:5".parse().unwrap(), "-0.5:2:3".parse().unwrap(), 6, 1);
         let run = |threads| map(&system, &plan, &Control { threads, ..Control::default() });
         let one = run(1).unwrap();

@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn a_plan_survives_json_and_short_ones_are_filled_in() {
-        let system = SystemPlan { inverse_beta: Some(1.11), gap: 3.0, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.11, 3.0, 0.5);
         let plan = Plan::new(system, Task::from(GOOD));
         assert_eq!(plan.check(), Ok(()));
         let text = serde_json::to_string(&plan).unwrap();
@@ -158,7 +158,7 @@ mod tests {
 
     #[test]
     fn nonsense_is_refused() {
-        let system = SystemPlan { inverse_beta: Some(1.11), gap: 3.0, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.11, 3.0, 0.5);
         let beyond = StartPlan { x: Some(3.5), ..StartPlan::default() };
         for (plan, sentence) in [
             (LyapunovPlan { impacts: Some(999), ..GOOD }, "impacts = 999 lies outside 1000 <= impacts <= 10000000"),

@@ -17,7 +17,7 @@
 //! | modes from a table of numbers | `modes` |
 //! | some of its numbers varied | `varied` |
 //! | a body in SI units, which is a machine of one coordinate by other names; its numbers | [`Body`], [`BodyNumber`] |
-//! | where a machine begins | [`StartText`], [`StartNumbers`], `start`, `start_axis`, `starting` |
+//! | where a machine begins | [`StartText`], `start`, `start_axis`, `starting` |
 //! | named machines of the literature | [`CATALOGUE`], `catalogue` |
 //! | errors | [`MachineFileError`], [`MachineProblem`] |
 
@@ -54,7 +54,7 @@ pub use number::NumberText;
 pub use read::no_files;
 pub use shapes::{MatrixText, VectorText};
 pub use source::MachineSource;
-pub use start::{ContactText, ContactWord, StartNumbers, StartText, contact_word};
+pub use start::{ContactText, ContactWord, StartText, contact_word};
 pub(crate) use start_axis::StartAxis;
 pub use text::{
     ForceText, FrictionText, ImpactsText, LinkText, ModeText, MotionText, OpeningText, StopText, WrittenMachine,

@@ -4,12 +4,13 @@ use super::expression::{self, ExpressionError};
 use super::named::Named;
 use core::fmt;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Serialize;
 use serde::de::{Deserialize, Deserializer, Error, Visitor};
-use serde::ser::{Serialize, Serializer};
 use std::borrow::Cow;
 
 /// A number, or an expression of the parameters of the file such as `"1/(1+mu)"`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum NumberText {
     /// A value.
     Value(f64),
@@ -38,15 +39,6 @@ impl NumberText {
         match self {
             Self::Value(value) => Ok(*value),
             Self::Expression(text) => expression::evaluate(text, parameters),
-        }
-    }
-}
-
-impl Serialize for NumberText {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Value(value) => serializer.serialize_f64(*value),
-            Self::Expression(text) => serializer.serialize_str(text),
         }
     }
 }

@@ -4,14 +4,15 @@ use super::named::Named;
 use super::number::{NumberText, Reader};
 use core::fmt;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Serialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
-use serde::ser::{Serialize, Serializer};
 use std::borrow::Cow;
 
 /// A vector: a list with a number for each coordinate, or a table of numbers for the names of coordinates, bodies and
 /// points.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum VectorText {
     /// One number, for the place that another field names.
     One(NumberText),
@@ -22,31 +23,13 @@ pub enum VectorText {
 }
 
 /// A matrix: its diagonal, or its rows.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum MatrixText {
     /// The numbers on the diagonal; all others are 0.
     Diagonal(Vec<NumberText>),
     /// The rows.
     Rows(Vec<Vec<NumberText>>),
-}
-
-impl Serialize for VectorText {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::One(number) => number.serialize(serializer),
-            Self::List(list) => list.serialize(serializer),
-            Self::Named(table) => table.serialize(serializer),
-        }
-    }
-}
-
-impl Serialize for MatrixText {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Diagonal(list) => list.serialize(serializer),
-            Self::Rows(rows) => rows.serialize(serializer),
-        }
-    }
 }
 
 impl<'de> Deserialize<'de> for VectorText {

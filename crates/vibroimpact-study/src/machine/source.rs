@@ -5,12 +5,13 @@ use super::expand::expand;
 use super::expression::reserved;
 use super::named::Named;
 use super::number::NumberText;
-use super::start::{StartNumbers, StartText};
+use super::start::StartText;
 use super::text::WrittenMachine;
 use super::written::{listed_path, numbers};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
+use vibroimpact::events::Start;
 use vibroimpact::machine::{Machine, MachineError, MachineParts};
 
 /// A machine file: the table `[machine]`, and optionally a title, the source, parameters and changed numbers.
@@ -98,11 +99,11 @@ impl MachineSource {
     ///
     /// # Errors
     /// [`MachineFileError`] with the path of the first number that has no meaning, or if the file describes no machine.
-    pub fn start(&self) -> Result<StartNumbers, MachineFileError> {
+    pub fn start(&self) -> Result<Start, MachineFileError> {
         self.start_of(&self.parts()?)
     }
 
-    fn start_of(&self, parts: &MachineParts) -> Result<StartNumbers, MachineFileError> {
+    fn start_of(&self, parts: &MachineParts) -> Result<Start, MachineFileError> {
         self.start.clone().unwrap_or_default().numbers(parts, &self.parameters)
     }
 

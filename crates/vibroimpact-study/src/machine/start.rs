@@ -98,21 +98,6 @@ pub struct StartText {
     pub exact: Named<Vec<f64>>,
 }
 
-/// The numbers of a start.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct StartNumbers {
-    /// The coordinates.
-    pub q: Vec<f64>,
-    /// The velocities.
-    pub qdot: Vec<f64>,
-    /// The phase of the forcing, in radians.
-    pub phase: f64,
-    /// What stops and joints do.
-    pub contacts: Vec<ContactStart>,
-    /// The digits that these numbers leave out.
-    pub exact: Vec<(String, Vec<f64>)>,
-}
-
 fn names(parts: &MachineParts) -> impl Iterator<Item = &String> {
     parts.stops.iter().map(|stop| &stop.name).chain(parts.joints.iter().map(|joint| &joint.name))
 }
@@ -121,20 +106,13 @@ impl StartText {
     /// The table of a state of a machine, with all coordinates and velocities.
     #[must_use]
     pub fn of(start: &Start, parts: &MachineParts) -> Self {
-        let numbers = StartNumbers {
-            q: start.q.clone(),
-            qdot: start.qdot.clone(),
-            phase: start.phase,
-            contacts: start.contacts.clone(),
-            exact: start.exact.clone(),
-        };
         let list =
             |values: &[f64]| Some(VectorText::List(values.iter().map(|value| NumberText::Value(*value)).collect()));
-        Self { q: list(&start.q), qdot: list(&start.qdot), ..Self::of_numbers(&numbers, parts) }
+        Self { q: list(&start.q), qdot: list(&start.qdot), ..Self::of_numbers(start, parts) }
     }
 
     /// The table of these numbers.
-    pub(super) fn of_numbers(numbers: &StartNumbers, parts: &MachineParts) -> Self {
+    pub(super) fn of_numbers(numbers: &Start, parts: &MachineParts) -> Self {
         let zero = |value: &f64| value.to_bits() == 0;
         let list = |values: &[f64]| {
             let list = values.iter().map(|value| NumberText::Value(*value)).collect();
@@ -152,11 +130,7 @@ impl StartText {
     }
 
     /// The numbers, for a machine of these parts.
-    pub(super) fn numbers(
-        &self,
-        parts: &MachineParts,
-        parameters: &Named<f64>,
-    ) -> Result<StartNumbers, MachineFileError> {
+    pub(super) fn numbers(&self, parts: &MachineParts, parameters: &Named<f64>) -> Result<Start, MachineFileError> {
         let coordinates = parts.coordinates.as_slice();
         let value = |path: &str, number: &NumberText| {
             let value = number.value(parameters).map_err(|error| MachineFileError::new(path, error))?;
@@ -204,7 +178,7 @@ impl StartText {
             })?;
             Ok(contact.contact(place))
         };
-        Ok(StartNumbers {
+        Ok(Start {
             q: vector("start.q", self.q.as_ref())?,
             qdot: vector("start.qdot", self.qdot.as_ref())?,
             phase: self.phase.as_ref().map_or(Ok(0.0), |number| value("start.phase", number))?,
@@ -216,10 +190,4 @@ impl StartText {
 
 fn wrong(path: &str, what: String) -> MachineFileError {
     MachineFileError::new(path, MachineProblem::Text(what))
-}
-
-impl From<StartNumbers> for Start {
-    fn from(StartNumbers { q, qdot, phase, contacts, exact }: StartNumbers) -> Self {
-        Self { q, qdot, phase, contacts, exact }
-    }
 }

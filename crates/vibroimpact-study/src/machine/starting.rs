@@ -29,7 +29,7 @@ impl MachineSource {
     /// # Errors
     /// [`PlanError::Machine`] with the path of the first number that is not allowed.
     pub fn described(&self) -> Result<(Machine, Start), PlanError> {
-        Ok((self.machine()?, self.start()?.into()))
+        Ok((self.machine()?, self.start()?))
     }
 
     /// The machine and the start, both checked.

@@ -155,7 +155,7 @@ mod tests {
 
     #[test]
     fn nonsense_is_refused() {
-        let system = SystemPlan { inverse_beta: Some(1.0), gap: 0.0, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.0, 0.0, 0.5);
         let good = MapPlan::plane("0.6:1.4:5".parse().unwrap(), "-0.5:2:3".parse().unwrap(), 6, 1);
         assert_eq!((good.check(&system), good.points()), (Ok(()), 15));
         let axes = |list: &[(Parameter, &str)]| {

@@ -160,15 +160,8 @@ mod tests {
         MarginsPlan { label: Some("1/1".into()), ..MarginsPlan::default() }
     }
 
-    const SYSTEM: SystemPlan = SystemPlan {
-        body: None,
-        beta: Some(1.0 / 1.11),
-        inverse_beta: None,
-        gap: 1.5,
-        restitution: 0.5,
-        damping: 0.0,
-        second_stop: None,
-    };
+    const SYSTEM: SystemPlan =
+        SystemPlan { beta: Some(1.0 / 1.11), inverse_beta: None, ..SystemPlan::from_inverse_beta(1.11, 1.5, 0.5) };
 
     #[test]
     fn the_distances_are_those_of_the_closed_form() {
@@ -204,16 +197,8 @@ mod tests {
         let mut events = 0;
         for margin in &all.parameters {
             for (_, limit, end) in margin.ends() {
-                let task = BranchPlan {
-                    label: Some("1/1".into()),
-                    vary: margin.scope.parameter,
-                    to: limit,
-                    back: None,
-                    also: None,
-                    orbit: None,
-                    follow: 0,
-                    points: 20_000,
-                };
+                let usual = BranchPlan::new(margin.scope.parameter, limit);
+                let task = BranchPlan { label: Some("1/1".into()), points: 20_000, ..usual };
                 let branches = crate::branch::branches(&at_rest(&system), &task, &Control::default()).unwrap();
                 let points = &branches.followed[0].points;
                 let first = points.iter().find(|point| point.event.is_some()).unwrap();
@@ -334,17 +319,7 @@ mod tests_of_machines {
         let mut events = 0;
         for (margin, path) in found.parameters.iter().zip(vary) {
             for (_, limit, end) in margin.ends() {
-                let branch = BranchPlan {
-                    label: None,
-                    orbit: None,
-                    vary: path.clone(),
-                    to: limit,
-                    back: None,
-                    also: None,
-                    points: 5000,
-                    follow: 0,
-                };
-                let plan = Plan::new(source.clone(), Task::from(branch));
+                let plan = Plan::new(source.clone(), Task::from(BranchPlan::new(path.clone(), limit)));
                 let PlanResults::Machine(Results::Branch(branch)) = run(&plan, &Control::default()).unwrap() else {
                     panic!()
                 };

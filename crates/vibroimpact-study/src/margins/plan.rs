@@ -176,15 +176,7 @@ mod tests {
     use super::*;
     use crate::{Plan, SecondStop, Task};
 
-    const SYSTEM: SystemPlan = SystemPlan {
-        body: None,
-        beta: None,
-        inverse_beta: Some(1.11),
-        gap: 1.5,
-        restitution: 0.5,
-        damping: 0.0,
-        second_stop: None,
-    };
+    const SYSTEM: SystemPlan = SystemPlan::from_inverse_beta(1.11, 1.5, 0.5);
 
     #[test]
     fn a_plan_survives_json_and_short_ones_are_filled_in() {

@@ -173,7 +173,7 @@ mod tests {
     /// Listed values in any order are swept as they rise and fall, and the plan is the same when it is written and read.
     #[test]
     fn listed_values() {
-        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.5, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.3, 0.5, 0.5);
         let listed = ResponsePlan::new(Parameter::Gap, Values::Listed(vec![0.5, 1.5, 0.75, 1.0]));
         let found = response(&system, &listed, &Control::default()).unwrap();
         let values = |list: &[ResponseRow]| list.iter().map(|motion| motion.value).collect::<Vec<_>>();
@@ -206,7 +206,7 @@ mod tests {
     /// sweep lies on a branch.
     #[test]
     fn sweeps_lie_on_branches() {
-        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.5, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.3, 0.5, 0.5);
         let plan = ResponsePlan::new(Parameter::Gap, "0.5:1.5:21".parse::<Span>().unwrap());
         let found = response(&system, &plan, &Control::default()).unwrap();
         let at = |list: &[ResponseRow]| list.iter().find(|m| (m.value - 0.75).abs() < 1e-12).unwrap().label.clone();

@@ -69,7 +69,7 @@ pub(crate) trait Basins: Send + Sync {
     fn codes(notes: &Self::Notes) -> Vec<i32>;
 
     /// The fields after those of the motions.
-    fn fields(&self, label: &Field) -> Vec<Field>;
+    fn fields(&self) -> Vec<Field>;
 
     /// Their columns. `stored` returns the verdict on a motion as it is stored.
     fn columns<'a>(
@@ -143,14 +143,42 @@ where
             |found: &CountedMotion<B::System>| (found.verdict.code(), cycles::number(known, &mut unknown, found));
         (tile.met.motions().iter().map(leads).collect(), unknown)
     }
+
+    /// The motions of a tile; `None` if stopped.
+    pub(crate) fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<BasinTile<B>> {
+        let into = RefCell::default();
+        let points = |wanted: &[usize]| self.of.settle(block, wanted, &mut into.borrow_mut(), tick);
+        let cells = match self.of.refine() {
+            None => points(&(0..block.points()).collect::<Vec<_>>())?.into_iter().map(Cell::Computed).collect(),
+            Some(step) => refine::fill(block, step as usize, points, |a, b| B::alike(&into.borrow().0, *a, *b))?,
+        };
+        let (met, notes) = into.into_inner();
+        Some(BasinTile { met, notes, cells })
+    }
+
+    fn columns(&self, block: &Block, tile: &BasinTile<B>) -> Vec<Column> {
+        let (leads, _) = self.leads(tile);
+        let of = |number: Option<u32>| number.map_or((super::REFUSED, cycles::BEYOND), |number| leads[number as usize]);
+        let (labels, numbers) = tile.numbers().map(of).unzip();
+        let mut columns = vec![Column::I32(labels)];
+        if self.of.one_system() {
+            columns.push(Column::I32(numbers));
+        }
+        // the verdict on a cycle that the survey has found is that of the survey, so that it is the same in all tiles
+        let known = self.cycles().unwrap_or_default();
+        let stored = |found| known.iter().find(|known| cycles::same(*known, found)).unwrap_or(found);
+        columns.extend(self.of.columns(block, tile, &stored));
+        if self.of.refine().is_some() {
+            columns.push(computed_column(&tile.cells));
+        }
+        columns
+    }
 }
 
 impl<B: Basins> Fill for BasinFill<B>
 where
     Verdict<B::System>: StoredMotion,
 {
-    type Tile = BasinTile<B>;
-
     fn together(&self) -> u64 {
         fill::with_refinement(self.of.refine(), B::ABREAST)
     }
@@ -169,7 +197,7 @@ where
 
     fn fields(&self) -> Vec<Field> {
         let refused = |number: i32| B::REFUSES.then_some((number, "beyond_a_stop"));
-        let mut label = code::field("motion m/n that the start leads to", Vec::new());
+        let mut label = code::field("motion m/n that the start leads to", &[]);
         label.flags.extend(refused(super::REFUSED));
         let mut fields = vec![label.clone()];
         if self.of.one_system() {
@@ -177,43 +205,15 @@ where
             cycle.flags.extend(refused(cycles::BEYOND));
             fields.push(cycle);
         }
-        fields.extend(self.of.fields(&label));
+        fields.extend(self.of.fields());
         if self.of.refine().is_some() {
             fields.push(computed());
         }
         fields
     }
 
-    fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<BasinTile<B>> {
-        let into = RefCell::default();
-        let points = |wanted: &[usize]| self.of.settle(block, wanted, &mut into.borrow_mut(), tick);
-        let cells = match self.of.refine() {
-            None => points(&(0..block.points()).collect::<Vec<_>>())?.into_iter().map(Cell::Computed).collect(),
-            Some(step) => refine::fill(block, step as usize, points, |a, b| B::alike(&into.borrow().0, *a, *b))?,
-        };
-        let (met, notes) = into.into_inner();
-        Some(BasinTile { met, notes, cells })
-    }
-
-    fn columns(&self, block: &Block, tile: BasinTile<B>) -> Vec<Column> {
-        let (leads, _) = self.leads(&tile);
-        let of = |number: Option<u32>| number.map_or((super::REFUSED, cycles::BEYOND), |number| leads[number as usize]);
-        let (labels, numbers) = tile.numbers().map(of).unzip();
-        let mut columns = vec![Column::I32(labels)];
-        if self.of.one_system() {
-            columns.push(Column::I32(numbers));
-        }
-        // the verdict on a cycle that the survey has found is that of the survey, so that it is the same in all tiles
-        let known = self.cycles().unwrap_or_default();
-        columns.extend(
-            self.of.columns(block, &tile, &|found| {
-                known.iter().find(|known| cycles::same(*known, found)).unwrap_or(found)
-            }),
-        );
-        if self.of.refine().is_some() {
-            columns.push(computed_column(&tile.cells));
-        }
-        columns
+    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
+        Some(self.columns(block, &self.compute(block, tick)?))
     }
 
     fn numbered(&self) -> Option<Numbered<'_>> {

@@ -6,7 +6,6 @@
 //! a complete chatter 1 600 000 000.
 
 use crate::field::{Extra, Field, NumberType};
-use crate::unit::Unit;
 use vibroimpact::Label;
 use vibroimpact::verdict::{Count, System, Verdict};
 
@@ -45,17 +44,8 @@ pub(super) const COMMENT: &str = "10000 m + n for a motion m/n with m impacts in
                                   for a motion m/T without forcing, 1600000000 for inf/T";
 
 /// The field of labels; further dimensions are `extra`.
-pub(super) fn field(long_name: &'static str, extra: Vec<Extra>) -> Field {
-    Field {
-        name: "label".into(),
-        long_name: long_name.into(),
-        unit: Unit::NUMBER,
-        kind: NumberType::I32,
-        fill: NOT_COMPUTED,
-        extra,
-        flags: FLAGS.to_vec(),
-        comment: COMMENT,
-    }
+pub(super) fn field(long_name: &'static str, extra: &[Extra]) -> Field {
+    Field { comment: COMMENT, ..Field::integers("label", long_name, NumberType::I32, extra, &FLAGS) }
 }
 
 /// The code of a motion.

@@ -30,31 +30,21 @@ impl Swept for OscillatorDiagram {
     }
 
     fn fields(&self) -> Vec<Field> {
-        let point = vec![Extra { name: "point", count: self.keep }];
-        let field = |name: &'static str, long_name: &'static str, unit, kind, fill, extra, flags| Field {
-            name: name.into(),
-            long_name: long_name.into(),
-            unit,
-            kind,
-            fill,
-            extra,
-            flags,
-            comment: "",
-        };
-        let sides = vec![
+        let point = [Extra { name: "point", count: self.keep }];
+        let sides = [
             (0, "no_point"),
             (1, "impact"),
             (-1, "impact_on_the_second_stop"),
             (2, "end_of_a_chatter"),
             (-2, "end_of_a_chatter_on_the_second_stop"),
         ];
-        let real = |name, long_name, unit| field(name, long_name, unit, NumberType::F64, 0, point.clone(), Vec::new());
+        let real = |name: &'static str, long_name: &'static str, unit| Field::real(name, long_name, unit, &point);
         let mut fields = vec![kind()];
         match self.plan.show {
             Show::Velocity => {
                 fields.push(real("velocity", "speed of arrival of an impact", Unit::VELOCITY));
                 fields.push(real("impact_phase", "phase of the force at the impact", Unit::ANGLE));
-                fields.push(field("side", "what the point is", Unit::NUMBER, NumberType::I8, 0, point.clone(), sides));
+                fields.push(Field::integers("side", "what the point is", NumberType::I8, &point, &sides));
             }
             Show::Strobe => {
                 fields.push(real("x", "position at phase 0 of the force", Unit::LENGTH));

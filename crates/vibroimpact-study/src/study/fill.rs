@@ -3,7 +3,7 @@
 use super::cycles;
 use crate::axis::Described;
 use crate::grid::{Dimension, Index};
-use crate::{Axis, Block, Column, Extra, Field, Grid, NumberType, Unit};
+use crate::{Axis, Block, Column, Extra, Field, Grid, Unit};
 use std::borrow::Cow;
 
 /// The coordinate values along a dimension of the grid.
@@ -23,9 +23,6 @@ pub struct Along {
 
 /// A task over a grid: how a tile is computed and stored.
 pub(crate) trait Fill: Send + Sync {
-    /// The results of one tile.
-    type Tile: Send;
-
     /// The grid and its tiles.
     fn grid(&self) -> &Grid;
 
@@ -38,11 +35,8 @@ pub(crate) trait Fill: Send + Sync {
     /// The fields (arrays) of the task.
     fn fields(&self) -> Vec<Field>;
 
-    /// Computes a tile; `None` if stopped. `tick` is called for each point and returns whether to stop.
-    fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Self::Tile>;
-
-    /// The columns of a tile, one for each field.
-    fn columns(&self, block: &Block, tile: Self::Tile) -> Vec<Column>;
+    /// The columns of a tile, one for each field; `None` if stopped. `tick` is called for each point and returns whether to stop.
+    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>>;
 
     /// The columns of some points of the grid, one for each field, as a tile has them; `None` if stopped, or if only whole
     /// tiles are computed.
@@ -76,7 +70,7 @@ pub(crate) trait Fill: Send + Sync {
         tick: &(dyn Fn() -> bool + Sync),
     ) -> Option<Vec<Column>> {
         let _ = (before, keep);
-        Some(self.columns(block, self.compute(block, tick)?))
+        self.fill(block, tick)
     }
 }
 
@@ -94,74 +88,6 @@ pub struct BegunTile {
 /// Called when a part of a tile is computed. Its first argument says whether the computation is about to be stopped, the
 /// second returns the part.
 pub type Keep<'a> = &'a dyn Fn(bool, &dyn Fn() -> BegunTile);
-
-/// A [`Fill`] whose tiles are available only as columns, so that a study can contain any task.
-pub(super) trait Columns: Send + Sync {
-    fn grid(&self) -> &Grid;
-    fn grid_mut(&mut self) -> &mut Grid;
-    fn coordinates(&self) -> Vec<Along>;
-    fn fields(&self) -> Vec<Field>;
-    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>>;
-    fn points(&self, points: &[Index], tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>>;
-    fn numbered(&self) -> Option<cycles::Numbered<'_>>;
-    fn together(&self) -> u64;
-    fn continues(&self) -> bool;
-    fn continued(
-        &self,
-        block: &Block,
-        before: Option<BegunTile>,
-        keep: Keep<'_>,
-        tick: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Vec<Column>>;
-}
-
-impl<F: Fill> Columns for F {
-    fn grid(&self) -> &Grid {
-        Fill::grid(self)
-    }
-
-    fn grid_mut(&mut self) -> &mut Grid {
-        Fill::grid_mut(self)
-    }
-
-    fn coordinates(&self) -> Vec<Along> {
-        Fill::coordinates(self)
-    }
-
-    fn fields(&self) -> Vec<Field> {
-        Fill::fields(self)
-    }
-
-    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
-        Some(self.columns(block, self.compute(block, tick)?))
-    }
-
-    fn points(&self, points: &[Index], tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
-        Fill::points(self, points, tick)
-    }
-
-    fn numbered(&self) -> Option<cycles::Numbered<'_>> {
-        Fill::numbered(self)
-    }
-
-    fn together(&self) -> u64 {
-        Fill::together(self)
-    }
-
-    fn continues(&self) -> bool {
-        Fill::continues(self)
-    }
-
-    fn continued(
-        &self,
-        block: &Block,
-        before: Option<BegunTile>,
-        keep: Keep<'_>,
-        tick: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Vec<Column>> {
-        Fill::continued(self, block, before, keep, tick)
-    }
-}
 
 /// The points of a block that is computed at the cost of a whole tile: with refinement the whole tile.
 pub(super) const fn with_refinement(refine: Option<u32>, points: u64) -> u64 {
@@ -208,16 +134,7 @@ impl Along {
 
 /// The fields of quantities of a machine, which have the paths as names.
 pub(super) fn machine_fields(paths: &[String], extra: &[Extra]) -> Vec<Field> {
-    let field = |path: &String| Field {
-        name: path.clone().into(),
-        long_name: format!("{path} of the motion").into(),
-        unit: Unit::CONSISTENT,
-        kind: NumberType::F64,
-        fill: 0,
-        extra: extra.to_vec(),
-        flags: Vec::new(),
-        comment: "",
-    };
+    let field = |path: &String| Field::real(path.clone(), format!("{path} of the motion"), Unit::CONSISTENT, extra);
     paths.iter().map(field).collect()
 }
 

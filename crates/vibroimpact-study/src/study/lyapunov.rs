@@ -125,8 +125,6 @@ impl Spectra for Oscillators {
 }
 
 impl<S: Spectra> Fill for LyapunovFill<S> {
-    type Tile = Vec<Column>;
-
     fn grid(&self) -> &Grid {
         &self.grid
     }
@@ -140,32 +138,20 @@ impl<S: Spectra> Fill for LyapunovFill<S> {
     }
 
     fn fields(&self) -> Vec<Field> {
-        let real = |name: &'static str, long_name: &'static str, unit, extra: &[Extra]| Field {
-            name: name.into(),
-            long_name: long_name.into(),
-            unit,
-            kind: NumberType::F64,
-            fill: 0,
-            extra: extra.to_vec(),
-            flags: Vec::new(),
-            comment: "",
-        };
         let each = [Extra { name: "direction", count: self.of.directions() }];
         let mut fields = vec![
-            real("exponent", "Lyapunov exponents per unit time, the larger first", S::RATE, &each),
-            real("exponent_error", "three standard errors of the exponents", S::RATE, &each),
+            Field::real("exponent", "Lyapunov exponents per unit time, the larger first", S::RATE, &each),
+            Field::real("exponent_error", "three standard errors of the exponents", S::RATE, &each),
         ];
-        fields.extend(self.of.further().iter().map(|(name, long_name)| real(name, long_name, Unit::NUMBER, &[])));
-        fields.push(Field {
-            kind: NumberType::I8,
-            fill: -1,
-            flags: self.of.grounds().to_vec(),
-            ..real("grounds", "where the exponents come from", Unit::NUMBER, &[])
-        });
+        fields.extend(
+            self.of.further().iter().map(|(name, long_name)| Field::real(*name, *long_name, Unit::NUMBER, &[])),
+        );
+        let long_name = "where the exponents come from";
+        fields.push(Field::integers("grounds", long_name, NumberType::I8, &[], self.of.grounds()));
         fields
     }
 
-    fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
+    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
         let (points, directions) = (block.points(), self.of.directions());
         let mut exponents = [(); 2].map(|()| vec![f64::NAN; directions * points]);
         let mut further = vec![vec![f64::NAN; points]; self.of.further().len()];
@@ -186,9 +172,5 @@ impl<S: Spectra> Fill for LyapunovFill<S> {
         }
         let real = exponents.into_iter().chain(further).map(Column::F64);
         Some(real.chain([Column::I8(why)]).collect())
-    }
-
-    fn columns(&self, _: &Block, tile: Vec<Column>) -> Vec<Column> {
-        tile
     }
 }

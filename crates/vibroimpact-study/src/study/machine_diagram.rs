@@ -33,33 +33,19 @@ impl Swept for MachineSweep {
 
     fn fields(&self) -> Vec<Field> {
         let kind = kind();
-        let extra = vec![Extra { name: "point", count: self.keep }];
-        let real =
-            Field { unit: Unit::CONSISTENT, kind: NumberType::F64, fill: 0, extra, flags: Vec::new(), ..kind.clone() };
+        let point = [Extra { name: "point", count: self.keep }];
         if !self.plan.show.is_closings() {
             let show = &self.plan.show;
             let states = self.plan.show.is_states();
             let long_name =
                 if states { format!("{show} at phase 0 of the forcing") } else { format!("{show} of the motion") };
-            let long_name = long_name.into();
-            return vec![kind, Field { name: self.plan.show.clone().into(), long_name, ..real }];
+            return vec![kind, Field::real(show.clone(), long_name, Unit::CONSISTENT, &point)];
         }
-        let stop = Field {
-            name: "stop".into(),
-            long_name: "number of the stop that closes, counted from 0 in the order of the machine".into(),
-            kind: NumberType::I32,
-            unit: Unit::NUMBER,
-            fill: -1,
-            flags: vec![(-1, "no_point")],
-            ..real.clone()
-        };
-        let phase = Field {
-            name: "closing_phase".into(),
-            long_name: "phase of the forcing at the closing".into(),
-            unit: Unit::ANGLE,
-            ..real.clone()
-        };
-        vec![kind, Field { name: "speed".into(), long_name: "speed of a closing".into(), ..real }, phase, stop]
+        let speed = Field::real("speed", "speed of a closing", Unit::CONSISTENT, &point);
+        let phase = Field::real("closing_phase", "phase of the forcing at the closing", Unit::ANGLE, &point);
+        let of_stop = "number of the stop that closes, counted from 0 in the order of the machine";
+        let stop = Field::integers("stop", of_stop, NumberType::I32, &point, &[(-1, "no_point")]);
+        vec![kind, speed, phase, stop]
     }
 
     fn step(&self, at: (u32, Sweep), before: Option<Start>) -> Result<(DiagramStep, Start), PlanError> {

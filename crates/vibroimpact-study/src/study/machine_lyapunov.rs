@@ -40,7 +40,7 @@ impl Machines {
         let numbers =
             values().filter(|(_, (_, place))| place.is_none()).map(|(k, (axis, _))| (axis.vary.as_str(), at(k, axis)));
         let source = self.source.with_all(numbers)?;
-        let (machine, mut start) = (source.machine()?, Start::from(source.start()?));
+        let (machine, mut start) = source.described()?;
         for (k, (axis, place)) in values() {
             if let Some(place) = place {
                 place.set(&mut start, at(k, axis));

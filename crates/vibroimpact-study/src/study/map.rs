@@ -100,7 +100,7 @@ impl Mapped for OscillatorMap {
     }
 
     fn quantities(&self, extra: &[Extra]) -> Vec<Field> {
-        self.plan.fields.iter().map(|quantity| quantity::field(*quantity, extra.to_vec())).collect()
+        self.plan.fields.iter().map(|quantity| quantity::field(*quantity, extra)).collect()
     }
 }
 
@@ -117,6 +117,18 @@ impl<M: Mapped> MapFill<M> {
     pub(super) fn of(mapped: M, grid: Grid, starts: u64, refine: Option<u32>) -> Self {
         let kept = usize::try_from(starts).unwrap_or(MOST_MOTIONS).min(MOST_MOTIONS);
         Self { mapped, grid, kept, refine }
+    }
+
+    /// The motions at the points of a tile; `None` if stopped.
+    pub(crate) fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Cell<Motions>>> {
+        let points = |wanted: &[usize]| -> Option<Vec<Motions>> {
+            self.mapped.motions(&wanted.iter().map(|k| block.index(*k)).collect::<Vec<_>>(), &|| tick())
+        };
+        match self.refine {
+            None => Some(points(&(0..block.points()).collect::<Vec<_>>())?.into_iter().map(Cell::Computed).collect()),
+            // corners agree if they have the same labels, in any order
+            Some(step) => refine::fill(block, step as usize, points, |a, b| self.labels(a) == self.labels(b)),
+        }
     }
 
     /// The labels of the stored motions of a point, in order.
@@ -177,8 +189,6 @@ impl<M: Mapped> MapFill<M> {
 pub(crate) type Motions = Result<Vec<Share>, PlanError>;
 
 impl<M: Mapped> Fill for MapFill<M> {
-    type Tile = Vec<Cell<Motions>>;
-
     fn together(&self) -> u64 {
         fill::with_refinement(self.refine, 1)
     }
@@ -197,20 +207,11 @@ impl<M: Mapped> Fill for MapFill<M> {
 
     fn fields(&self) -> Vec<Field> {
         let motion = if M::SEVERAL { vec![Extra { name: "motion", count: self.kept }] } else { Vec::new() };
-        let real = |name: &'static str, long_name: &'static str, unit| Field {
-            name: name.into(),
-            long_name: long_name.into(),
-            unit,
-            kind: NumberType::F64,
-            fill: 0,
-            extra: motion.clone(),
-            flags: Vec::new(),
-            comment: "",
-        };
+        let real = |name: &'static str, long_name: &'static str, unit| Field::real(name, long_name, unit, &motion);
         let label = if M::SEVERAL {
-            code::field("motion m/n, the most frequent first", motion.clone())
+            code::field("motion m/n, the most frequent first", &motion)
         } else {
-            let field = code::field("motion m/n that the start leads to", Vec::new());
+            let field = code::field("motion m/n that the start leads to", &[]);
             Field { flags: [field.flags, vec![(super::REFUSED, "refused")]].concat(), ..field }
         };
         let mut fields = vec![label];
@@ -226,19 +227,8 @@ impl<M: Mapped> Fill for MapFill<M> {
         fields
     }
 
-    fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Self::Tile> {
-        let points = |wanted: &[usize]| -> Option<Vec<Motions>> {
-            self.mapped.motions(&wanted.iter().map(|k| block.index(*k)).collect::<Vec<_>>(), &|| tick())
-        };
-        match self.refine {
-            None => Some(points(&(0..block.points()).collect::<Vec<_>>())?.into_iter().map(Cell::Computed).collect()),
-            // corners agree if they have the same labels, in any order
-            Some(step) => refine::fill(block, step as usize, points, |a, b| self.labels(a) == self.labels(b)),
-        }
-    }
-
-    fn columns(&self, _: &Block, cells: Self::Tile) -> Vec<Column> {
-        self.columns_at(&cells)
+    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
+        Some(self.columns_at(&self.compute(block, tick)?))
     }
 
     fn points(&self, points: &[Index], tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
@@ -249,16 +239,8 @@ impl<M: Mapped> Fill for MapFill<M> {
 
 /// The field that marks the points that were computed.
 pub(super) fn computed() -> Field {
-    Field {
-        name: "computed".into(),
-        long_name: "whether the point was computed itself".into(),
-        unit: Unit::NUMBER,
-        kind: NumberType::I8,
-        fill: 0,
-        extra: Vec::new(),
-        flags: vec![(0, "not_computed"), (1, "computed"), (2, "taken_from_agreeing_neighbours")],
-        comment: "",
-    }
+    let flags = [(0, "not_computed"), (1, "computed"), (2, "taken_from_agreeing_neighbours")];
+    Field::integers("computed", "whether the point was computed itself", NumberType::I8, &[], &flags)
 }
 
 pub(super) fn computed_column<T>(cells: &[Cell<T>]) -> Column {

@@ -1,6 +1,5 @@
 //! A whole study computed in memory, for grids that fit.
 
-use super::fill::Fill;
 use super::{Study, StudyTable, Tiles};
 use crate::field::{Column, Field};
 use crate::grid::Grid;
@@ -50,11 +49,14 @@ pub fn in_memory(study: Study, control: &Control<'_>) -> Result<Sheet, RunError>
     Ok(Sheet { fields, columns, tables, study })
 }
 
-/// The results of all tiles of a task, in the order of the tiles.
-pub(crate) fn tiles_of<F: Fill>(task: &F, control: &Control<'_>) -> Result<Vec<(Block, F::Tile)>, Stopped> {
-    let grid = task.grid();
+/// The results of all tiles of a grid, in the order of the tiles.
+pub(crate) fn tiles_of<T: Send>(
+    grid: &Grid,
+    control: &Control<'_>,
+    compute: impl Fn(&Block, &(dyn Fn() -> bool + Sync)) -> Option<T> + Sync,
+) -> Result<Vec<(Block, T)>, Stopped> {
     let blocks = (0..grid.tiles()).map(|k| grid.tile(k));
-    Ok(blocks.zip(each_tile(grid, control, |k, tick| task.compute(&grid.tile(k), tick))?).collect())
+    Ok(blocks.zip(each_tile(grid, control, |k, tick| compute(&grid.tile(k), tick))?).collect())
 }
 
 /// Computes the tiles of a grid by several threads. Progress is reported in points.

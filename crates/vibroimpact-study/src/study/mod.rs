@@ -40,6 +40,7 @@ pub use memory::{Sheet, check_memory, in_memory};
 pub(crate) use refine::Cell;
 pub use remarks::{closed_of, has_closed};
 pub use some_points::{PointColumns, points_until};
+pub(crate) use stored_motion::StoredMotion;
 pub(crate) use sweeps::{SweepFill, Swept};
 pub use tables::{Cells, EachCount, StudyTable, Tiles};
 
@@ -51,7 +52,7 @@ use lyapunov::LyapunovFill;
 
 /// A plan that fills a grid.
 pub struct Study {
-    fill: Box<dyn fill::Columns>,
+    fill: Box<dyn Fill>,
     /// The numbers of the fields that are stored, among those that are computed.
     kept: Vec<usize>,
 }
@@ -70,7 +71,7 @@ impl Study {
     }
 
     /// The study of a fill, with all its fields.
-    fn of(fill: Box<dyn fill::Columns>) -> Self {
+    fn of(fill: Box<dyn Fill>) -> Self {
         let kept = (0..fill.fields().len()).collect();
         Self { fill, kept }
     }
@@ -97,7 +98,7 @@ impl Study {
         columns.into_iter().enumerate().filter(|(k, _)| self.kept.contains(k)).map(|(_, column)| column).collect()
     }
 
-    fn of_machine(source: &MachineSource, task: &Task, tile: Option<u32>) -> Result<Box<dyn fill::Columns>, PlanError> {
+    fn of_machine(source: &MachineSource, task: &Task, tile: Option<u32>) -> Result<Box<dyn Fill>, PlanError> {
         Ok(match task {
             Task::Basin(basin) => {
                 let (machine, start) = source.problem()?;
@@ -116,7 +117,7 @@ impl Study {
         })
     }
 
-    fn of_oscillator(system: &SystemPlan, plan: &Plan) -> Result<Box<dyn fill::Columns>, PlanError> {
+    fn of_oscillator(system: &SystemPlan, plan: &Plan) -> Result<Box<dyn Fill>, PlanError> {
         let tile = plan.tile;
         Ok(match &plan.task {
             Task::Map(map) => Box::new(MapFill::new(system, &map.typed()?, tile)),

@@ -1,21 +1,12 @@
 //! Why each verdict holds, as it is stored.
 
-use crate::Unit;
 use crate::field::{Column, Field, NumberType};
 use vibroimpact::verdict::{Ending, Reason};
 
 /// The field of reasons.
 pub(super) fn field() -> Field {
-    Field {
-        name: "reason".into(),
-        long_name: "why the verdict holds".into(),
-        unit: Unit::NUMBER,
-        kind: NumberType::I8,
-        fill: -1,
-        extra: Vec::new(),
-        flags: [(-1, "not_computed")].into_iter().chain((0..).zip(Reason::ALL.map(Reason::name))).collect(),
-        comment: "",
-    }
+    let flags: Vec<_> = [(-1, "not_computed")].into_iter().chain((0..).zip(Reason::ALL.map(Reason::name))).collect();
+    Field::integers("reason", "why the verdict holds", NumberType::I8, &[], &flags)
 }
 
 /// The column of reasons.

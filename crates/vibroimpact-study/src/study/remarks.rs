@@ -1,7 +1,6 @@
 //! What a store of a machine keeps of a motion beside its label: the stops that stay closed for ever, and the number of events
 //! over which chaos was seen.
 
-use crate::Unit;
 use crate::field::{Extra, Field, NumberType};
 
 /// Where there is nothing to say of a motion.
@@ -11,16 +10,9 @@ const BITS: usize = 31;
 
 /// The fields of the remarks on motions of a machine with so many stops: one for each [`BITS`] stops, and the number of events.
 pub(super) fn fields(stops: usize, extra: &[Extra]) -> Vec<Field> {
-    let seen = Field {
-        name: "seen_events".into(),
-        long_name: "number of events over which chaos was seen".into(),
-        unit: Unit::NUMBER,
-        kind: NumberType::I32,
-        fill: i32::MIN,
-        extra: extra.to_vec(),
-        flags: vec![(i32::MIN, "not_computed"), (NONE, "not_chaotic")],
-        comment: "",
-    };
+    let flags = [(i32::MIN, "not_computed"), (NONE, "not_chaotic")];
+    let long_name = "number of events over which chaos was seen";
+    let seen = Field::integers("seen_events", long_name, NumberType::I32, extra, &flags);
     let closed = |k: usize| Field {
         name: if k == 0 { "closed".into() } else { format!("closed_{}", k + 1).into() },
         long_name: "stops that stay closed for ever".into(),

@@ -65,12 +65,50 @@ impl<S: Swept> SweepFill<S> {
         };
         Self { grid: Grid { dimensions }, swept }
     }
+
+    /// The motions of the rows, one row after another, each in the order of its sweep; `None` if stopped.
+    pub(crate) fn compute(
+        &self,
+        block: &Block,
+        tick: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Vec<Result<DiagramStep, PlanError>>> {
+        let (rows, values) = (&block.ranges[0], &block.ranges[1]);
+        let DiagramPlan { over, direction, .. } = self.plan();
+        let mut steps = Vec::with_capacity(block.points());
+        for row in rows.clone() {
+            let mut before = None;
+            for j in 0..values.len() {
+                let row = row as u64;
+                let at = match direction {
+                    SweepDirection::Scatter { .. } => (u32::try_from(values.start + j).ok()?, Sweep::Start(row)),
+                    _ => carried(over, *direction, row, u32::try_from(j).ok()?),
+                };
+                steps.push(self.swept.step(at, before.take()).map(|(step, left)| {
+                    before = Some(left);
+                    step
+                }));
+                if tick() {
+                    return None;
+                }
+            }
+        }
+        Some(steps)
+    }
+
+    fn columns(&self, block: &Block, steps: &[Result<DiagramStep, PlanError>]) -> Vec<Column> {
+        let values = &block.ranges[1];
+        // the ends were checked, and every value between two valid ends is valid
+        let placed: Vec<(usize, &DiagramStep)> = steps
+            .iter()
+            .enumerate()
+            .filter_map(|(k, step)| Some((k, step.as_ref().ok()?)))
+            .map(|(k, step)| (k / values.len() * values.len() + (step.index as usize - values.start), step))
+            .collect();
+        self.swept.columns(block.points(), &placed)
+    }
 }
 
 impl<S: Swept> Fill for SweepFill<S> {
-    /// The motions of the rows, one row after another, each in the order of its sweep.
-    type Tile = Vec<Result<DiagramStep, PlanError>>;
-
     fn together(&self) -> u64 {
         match self.plan().direction {
             SweepDirection::Scatter { .. } => 1,
@@ -90,8 +128,8 @@ impl<S: Swept> Fill for SweepFill<S> {
         keep: Keep<'_>,
         tick: &(dyn Fn() -> bool + Sync),
     ) -> Option<Vec<Column>> {
-        if !Fill::continues(self) {
-            return Some(self.columns(block, self.compute(block, tick)?));
+        if !self.continues() {
+            return self.fill(block, tick);
         }
         let DiagramPlan { over, direction, .. } = self.plan();
         // a sweep is one row and all values
@@ -184,40 +222,8 @@ impl<S: Swept> Fill for SweepFill<S> {
         self.swept.fields()
     }
 
-    fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Self::Tile> {
-        let (rows, values) = (&block.ranges[0], &block.ranges[1]);
-        let DiagramPlan { over, direction, .. } = self.plan();
-        let mut steps = Vec::with_capacity(block.points());
-        for row in rows.clone() {
-            let mut before = None;
-            for j in 0..values.len() {
-                let row = row as u64;
-                let at = match direction {
-                    SweepDirection::Scatter { .. } => (u32::try_from(values.start + j).ok()?, Sweep::Start(row)),
-                    _ => carried(over, *direction, row, u32::try_from(j).ok()?),
-                };
-                steps.push(self.swept.step(at, before.take()).map(|(step, left)| {
-                    before = Some(left);
-                    step
-                }));
-                if tick() {
-                    return None;
-                }
-            }
-        }
-        Some(steps)
-    }
-
-    fn columns(&self, block: &Block, steps: Self::Tile) -> Vec<Column> {
-        let values = &block.ranges[1];
-        // the ends were checked, and every value between two valid ends is valid
-        let placed: Vec<(usize, &DiagramStep)> = steps
-            .iter()
-            .enumerate()
-            .filter_map(|(k, step)| Some((k, step.as_ref().ok()?)))
-            .map(|(k, step)| (k / values.len() * values.len() + (step.index as usize - values.start), step))
-            .collect();
-        self.swept.columns(block.points(), &placed)
+    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
+        Some(self.columns(block, &self.compute(block, tick)?))
     }
 }
 
@@ -227,16 +233,7 @@ const KINDS: [(i32, &str); 5] =
 
 /// The field of the kinds of motions.
 pub(super) fn kind() -> Field {
-    Field {
-        name: "kind".into(),
-        long_name: "what the motion is after the transient".into(),
-        unit: Unit::NUMBER,
-        kind: NumberType::I8,
-        fill: -1,
-        extra: Vec::new(),
-        flags: KINDS.to_vec(),
-        comment: "",
-    }
+    Field::integers("kind", "what the motion is after the transient", NumberType::I8, &[], &KINDS)
 }
 
 /// The diagram from the columns of its study: sweeps one after another, scattered starts value by value. `point` returns a point

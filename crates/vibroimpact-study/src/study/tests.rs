@@ -9,15 +9,7 @@ use crate::{
 };
 use vibroimpact::verdict::{Reason, SettleOptions};
 
-const S: SystemPlan = SystemPlan {
-    beta: None,
-    inverse_beta: Some(1.3),
-    gap: 0.75,
-    restitution: 0.5,
-    damping: 0.0,
-    second_stop: None,
-    body: None,
-};
+const S: SystemPlan = SystemPlan::from_inverse_beta(1.3, 0.75, 0.5);
 
 fn span(text: &str) -> Span {
     text.parse().unwrap()
@@ -231,15 +223,8 @@ fn a_diagram_is_that_of_its_steps() {
         (SweepDirection::Down, 1, Some(damping)),
         (SweepDirection::Scatter { starts: 3, seed: 1 }, 3, None),
     ] {
-        let plan = DiagramPlan {
-            vary: Parameter::Gap,
-            over: span("0:2:41").into(),
-            also,
-            show: Show::Velocity,
-            direction,
-            transient: 100,
-            keep: 6,
-        };
+        let usual = DiagramPlan::new(Parameter::Gap, span("0:2:41"));
+        let plan = DiagramPlan { also, direction, transient: 100, keep: 6, ..usual };
         let found = sheet(S, Task::from(plan.clone()), None, 2);
         let direct = crate::in_memory::diagram(&SweepFill::new(&S, &plan, Some(4)), &Control::default()).unwrap();
         assert_eq!(diagram_of(&plan, &found.columns), direct);

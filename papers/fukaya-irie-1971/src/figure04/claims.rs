@@ -133,7 +133,7 @@ fn right(section: &mut Section, grid: &Grid, plane: &Plane) {
     let mut places: Vec<(f64, f64)> = Vec::new();
     let mut kinds: Vec<String> = Vec::new();
     for (label, _) in grid.labels() {
-        let Some((m, n)) = numbers(&label) else {
+        let Some((m, n)) = looks::numbers(&label) else {
             continue;
         };
         if m > n && n > 1 {
@@ -259,9 +259,4 @@ fn ruled(grid: &Grid, label: &str) -> Vec<String> {
         .filter(|p| p.starts.iter().any(|(_, rule)| figure03::in_words(rule) == label))
         .map(|p| looks::place(p.inverse_beta, p.gap))
         .collect()
-}
-
-fn numbers(label: &str) -> Option<(u32, u32)> {
-    let (m, n) = label.split_once('/')?;
-    Some((m.parse().ok()?, n.parse().ok()?))
 }

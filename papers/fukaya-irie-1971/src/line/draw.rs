@@ -73,24 +73,8 @@ pub(super) fn figure(branches: &[Vec<SolutionPoint>]) -> Result<Figure, Error> {
 
 /// Impact speeds of simulated motions over the gap.
 fn simulated() -> Result<(Vec<f64>, Vec<f64>), Error> {
-    let system = SystemPlan {
-        beta: None,
-        inverse_beta: Some(scenario::T.inverse_beta),
-        gap: 0.0,
-        restitution: EPS,
-        damping: 0.0,
-        second_stop: None,
-        body: None,
-    };
-    let plan = DiagramPlan {
-        vary: Parameter::Gap,
-        over: Span::new(SHOWN.0, SHOWN.1, 1181)?.into(),
-        also: None,
-        show: diagram::Show::Velocity,
-        direction: diagram::SweepDirection::Both,
-        transient: diagram::DEFAULT_TRANSIENT,
-        keep: diagram::DEFAULT_KEEP,
-    };
+    let system = SystemPlan::from_inverse_beta(scenario::T.inverse_beta, 0.0, EPS);
+    let plan: DiagramPlan = DiagramPlan::new(Parameter::Gap, Span::new(SHOWN.0, SHOWN.1, 1181)?);
     let results = run(&Plan::new(system, Task::from(plan)), &Control::default())?;
     let PlanResults::Oscillator(Results::Diagram(found)) = results else {
         return Err(Error::Unexpected("a diagram came out as something else"));

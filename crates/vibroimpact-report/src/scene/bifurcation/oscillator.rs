@@ -144,7 +144,7 @@ mod tests {
 
     #[test]
     fn f10b_the_branches_of_the_labels_on_a_line() {
-        let system = SystemPlan { inverse_beta: Some(1.11), gap: 1.5, restitution: 0.5, ..SystemPlan::default() };
+        let system = SystemPlan::from_inverse_beta(1.11, 1.5, 0.5);
         let (asked, control) = (Asked { system, units: Units::default() }, Control::default());
         let task = r#"{"vary":"gap","over":"1.5:2.2:15","transient":100,"keep":8}"#;
         let plan: DiagramPlan = serde_json::from_str(task).unwrap();

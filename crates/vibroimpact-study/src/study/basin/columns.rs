@@ -26,18 +26,10 @@ const MULTIPLIERS: [PartOfMultipliers; 4] = [
 
 impl OscillatorBasin {
     /// The fields after those of the motions, in the order of [`Self::stored_columns`].
-    pub(super) fn stored_fields(&self, label: &Field) -> Vec<Field> {
-        let quantities = self.asked().iter().map(|quantity| quantity::field(*quantity, Vec::new()));
+    pub(super) fn stored_fields(&self) -> Vec<Field> {
+        let quantities = self.asked().iter().map(|quantity| quantity::field(*quantity, &[]));
         let mut fields: Vec<Field> = quantities.collect();
-        let number = |name: &'static str, long_name: &'static str, unit| Field {
-            name: name.into(),
-            long_name: long_name.into(),
-            unit,
-            kind: NumberType::F64,
-            flags: Vec::new(),
-            comment: "",
-            ..label.clone()
-        };
+        let number = |name: &'static str, long_name: &'static str, unit| Field::real(name, long_name, unit, &[]);
         if self.of_points() {
             fields.push(reason::field());
         }
@@ -46,8 +38,8 @@ impl OscillatorBasin {
         }
         if self.transient() {
             let long_name = "impacts until the motion was decided";
-            let flags = vec![(NOT_COMPUTED, "not_computed"), (-1, "taken_from_agreeing_neighbours")];
-            fields.push(Field { kind: NumberType::I32, flags, ..number("transient", long_name, Unit::NUMBER) });
+            let flags = [(NOT_COMPUTED, "not_computed"), (-1, "taken_from_agreeing_neighbours")];
+            fields.push(Field::integers("transient", long_name, NumberType::I32, &[], &flags));
         }
         if let Starts::Scattered { .. } = self.starts {
             fields.push(number("x", "position of the start", Unit::LENGTH));

@@ -127,7 +127,7 @@ impl Basins for MachineBasin {
         Vec::new()
     }
 
-    fn fields(&self, _: &Field) -> Vec<Field> {
+    fn fields(&self) -> Vec<Field> {
         let mut fields = remarks::fields(self.machine.stops().len(), &[]);
         fields.extend(machine_fields(&self.plan.fields, &[]));
         fields

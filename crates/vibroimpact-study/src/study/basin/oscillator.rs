@@ -173,8 +173,8 @@ impl Basins for OscillatorBasin {
         notes.found.iter().map(|found| found.code).collect()
     }
 
-    fn fields(&self, label: &Field) -> Vec<Field> {
-        self.stored_fields(label)
+    fn fields(&self) -> Vec<Field> {
+        self.stored_fields()
     }
 
     fn columns<'a>(
