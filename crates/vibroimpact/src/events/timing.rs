@@ -58,5 +58,7 @@ impl Motion<'_> {
                 passage.guards.push(g);
             }
         }
+        // rounding decides which of them was found, and must not decide which one stands for the event
+        passage.guards.sort_unstable();
     }
 }

@@ -458,3 +458,21 @@ fn f42zb_the_branch_of_a_chatter_on_a_stop_that_is_there_twice() {
         assert!(event.place() == other.place() && (at - there).abs() < 1e-8, "{event:?} {other:?}");
     }
 }
+
+/// Just before a hold begins a joint slides on for an instant, and what rounding leaves of its velocity decides which of two equal
+/// joints is found at zero first: the events of two pairs were other ones than those of one, and the hold began up to 1e-4 elsewhere.
+#[test]
+fn f42zc_holds_of_two_pairs_begin_where_those_of_one_do() {
+    let of = |count: usize| {
+        let machine = rubbing_pairs(count, 1.0);
+        let cycle = settled(&machine, &Start::default()).unwrap();
+        events(&traced((&machine, "frequency"), &cycle, (1.0, 1.12), Direction::Up))
+    };
+    let (one, two) = (of(1), of(2));
+    let holding = |event: &BranchEvent| matches!(event, BranchEvent::Holding { .. });
+    assert!(one.len() == 4 && one[..3].iter().all(|(event, _)| holding(event)), "{one:?}");
+    assert_eq!(one.len(), two.len(), "{two:?}");
+    for ((event, at), (other, there)) in one.iter().zip(&two) {
+        assert!(holding(event) == holding(other) && (at - there).abs() < 1e-8, "{event:?} {at}, {other:?} {there}");
+    }
+}

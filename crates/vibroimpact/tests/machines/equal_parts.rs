@@ -16,20 +16,25 @@ fn close(found: &[f64], wanted: &[f64], within: f64) {
     assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < within), "{found:?} instead of {wanted:?}");
 }
 
+/// `count` equal masses of 1, each along its own coordinate and with the links, forces, stops and joints that `add` adds.
+fn equal(count: usize, frequency: f64, add: impl Fn(MachineParts, usize, &[f64]) -> MachineParts) -> Machine {
+    let parts = MachineParts::new((0..count).map(|k| format!("x{k}"))).with_frequency(frequency);
+    let with = |parts: MachineParts, k: usize| {
+        let own: Vec<f64> = (0..count).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
+        add(parts.with_mass(k, 1.0), k, &own)
+    };
+    Machine::new((0..count).fold(parts, with)).unwrap()
+}
+
 /// `count` times a mass on a spring with a stop and a joint, which the impact makes turn back.
 fn sliding(count: usize) -> Machine {
-    let mut parts = MachineParts::new((0..count).map(|k| format!("x{k}"))).with_frequency(1.5);
-    for k in 0..count {
-        let mut own = vec![0.0; count];
-        own[k] = 1.0;
-        parts = parts
-            .with_mass(k, 1.0)
-            .with_link(&own, 1.0, 0.05)
+    equal(count, 1.5, |parts, k, own| {
+        parts
+            .with_link(own, 1.0, 0.05)
             .with_force(k, 1, 0.0, 1.0)
-            .with_rigid_stop(&format!("s{k}"), &own, 0.0, 0.5)
-            .with_joint(&format!("j{k}"), &own, 0.2, 0.2, 0.0);
-    }
-    Machine::new(parts).unwrap()
+            .with_rigid_stop(&format!("s{k}"), own, 0.0, 0.5)
+            .with_joint(&format!("j{k}"), own, 0.2, 0.2, 0.0)
+    })
 }
 
 /// The derivative of an impact that reverses a joint was divided among all impacts at the same time, so equal parts had multipliers
@@ -192,15 +197,10 @@ fn impacts_in_turn_of_equal_parts_have_the_multipliers_of_one() {
 #[test]
 fn impacts_of_equal_parts_are_lost_together() {
     let masses = |count: usize| {
-        let mut parts = MachineParts::new((0..count).map(|k| format!("x{k}"))).with_frequency(1.5);
-        for k in 0..count {
-            let mut own = vec![0.0; count];
-            own[k] = 1.0;
-            let stop = format!("s{k}");
-            parts = parts.with_mass(k, 1.0).with_link(&own, 1.0, 0.1).with_force(k, 1, 0.0, 1.0);
-            parts = parts.with_rigid_stop(&stop, &own, 0.2, 0.5);
-        }
-        Machine::new(parts).unwrap()
+        equal(count, 1.5, |parts, k, own| {
+            let parts = parts.with_link(own, 1.0, 0.1).with_force(k, 1, 0.0, 1.0);
+            parts.with_rigid_stop(&format!("s{k}"), own, 0.2, 0.5)
+        })
     };
     let end = |count: usize| {
         let machine = masses(count);
@@ -246,18 +246,13 @@ fn the_steady_motion_is_one_orbit() {
 #[test]
 fn holds_of_equal_parts_have_the_multipliers_of_one() {
     let rubbing = |count: usize| {
-        let mut parts = MachineParts::new((0..count).map(|k| format!("x{k}"))).with_frequency(0.8);
-        for k in 0..count {
-            let mut own = vec![0.0; count];
-            own[k] = 1.0;
-            parts = parts
-                .with_mass(k, 1.0)
-                .with_link(&own, 1.0, 0.05)
+        equal(count, 0.8, |parts, k, own| {
+            parts
+                .with_link(own, 1.0, 0.05)
                 .with_force(k, 1, 0.0, 0.6)
-                .with_rigid_stop(&format!("s{k}"), &own, 0.5, 0.4)
-                .with_joint(&format!("j{k}"), &own, 0.15, 0.2, 0.0);
-        }
-        Machine::new(parts).unwrap()
+                .with_rigid_stop(&format!("s{k}"), own, 0.5, 0.4)
+                .with_joint(&format!("j{k}"), own, 0.15, 0.2, 0.0)
+        })
     };
     let cycles = [1, 2, 3].map(|count| settled(&rubbing(count), &Start::default()).unwrap());
     let holds = cycles[0].events.iter().filter(|event| event.kind == EventKind::Hold).count();
