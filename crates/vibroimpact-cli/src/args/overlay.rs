@@ -41,9 +41,8 @@ enum LayerName {
 }
 
 impl LayerName {
-    /// The layers have the same order, and none is after the last.
     fn layer(self) -> Option<Layer> {
-        Layer::ALL.get(self as usize).copied()
+        Layer::from_name(self.to_possible_value()?.get_name())
     }
 }
 

@@ -106,8 +106,9 @@ impl Settle {
         if self.show.is_some() && !self.output.any_file() {
             return Err(Failure::bad("--show says what is drawn or written: it belongs to --plot and --csv"));
         }
-        // views have the same order
-        Ok(Shown { view: self.show.map(|view| View::ALL[view as usize]), ..Shown::default() })
+        let name = self.show.and_then(|show| show.to_possible_value());
+        let view = name.and_then(|name| View::ALL.into_iter().find(|view| view.name() == name.get_name()));
+        Ok(Shown { view, ..Shown::default() })
     }
 
     fn paper_rule(&self) -> Result<Option<PaperRule>, Failure> {

@@ -26,15 +26,25 @@ fn equal(count: usize, frequency: f64, add: impl Fn(MachineParts, usize, &[f64])
     Machine::new((0..count).fold(parts, with)).unwrap()
 }
 
-/// `count` times a mass on a spring with a stop and a joint, which the impact makes turn back.
-fn sliding(count: usize) -> Machine {
-    equal(count, 1.5, |parts, k, own| {
+/// `count` times a mass on a spring under a force, with a stop of this gap and restitution, and a joint with this sliding force and limit.
+fn rubbing(
+    count: usize,
+    (frequency, force): (f64, f64),
+    (gap, restitution): (f64, f64),
+    (sliding, limit): (f64, f64),
+) -> Machine {
+    equal(count, frequency, |parts, k, own| {
         parts
             .with_link(own, 1.0, 0.05)
-            .with_force(k, 1, 0.0, 1.0)
-            .with_rigid_stop(&format!("s{k}"), own, 0.0, 0.5)
-            .with_joint(&format!("j{k}"), own, 0.2, 0.2, 0.0)
+            .with_force(k, 1, 0.0, force)
+            .with_rigid_stop(&format!("s{k}"), own, gap, restitution)
+            .with_joint(&format!("j{k}"), own, sliding, limit, 0.0)
     })
+}
+
+/// The same where the impact makes the joint turn back.
+fn sliding(count: usize) -> Machine {
+    rubbing(count, (1.5, 1.0), (0.0, 0.5), (0.2, 0.2))
 }
 
 /// The derivative of an impact that reverses a joint was divided among all impacts at the same time, so equal parts had multipliers
@@ -245,16 +255,8 @@ fn the_steady_motion_is_one_orbit() {
 /// Holds of equal parts begin and end at one time: each at its own in neighbours, so that the multipliers are those of one.
 #[test]
 fn holds_of_equal_parts_have_the_multipliers_of_one() {
-    let rubbing = |count: usize| {
-        equal(count, 0.8, |parts, k, own| {
-            parts
-                .with_link(own, 1.0, 0.05)
-                .with_force(k, 1, 0.0, 0.6)
-                .with_rigid_stop(&format!("s{k}"), own, 0.5, 0.4)
-                .with_joint(&format!("j{k}"), own, 0.15, 0.2, 0.0)
-        })
-    };
-    let cycles = [1, 2, 3].map(|count| settled(&rubbing(count), &Start::default()).unwrap());
+    let cycles = [1, 2, 3]
+        .map(|count| settled(&rubbing(count, (0.8, 0.6), (0.5, 0.4), (0.15, 0.2)), &Start::default()).unwrap());
     let holds = cycles[0].events.iter().filter(|event| event.kind == EventKind::Hold).count();
     assert!(holds > 0, "{:?}", cycles[0].events);
     let one = moduli(&cycles[0]);

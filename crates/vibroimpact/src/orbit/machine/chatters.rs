@@ -90,7 +90,7 @@ impl Chatter {
     /// The rebound at impact `k`. `None` if the stop cannot hold the structure there.
     pub(crate) fn rebound(&self, frame: &MachineFrame<'_>, ring: &MachineRing, k: usize) -> Option<Rebound> {
         let mut place = Place { known: Vec::new(), ..ring.place(k) };
-        let speed = place.gap(&frame.normal, &place.turns(&frame.normal), self.stop).1;
+        let speed = frame.gap(&place, self.stop).1;
         // at rest the reaction is the force that would close the gap: over the mobility, the acceleration
         for (stop, _) in &ring.events[self.rest].pushed {
             place.states[*stop] = ContactState::Resting;
@@ -110,7 +110,7 @@ impl Chatter {
         let mut from = ring.place(before);
         frame.constrain(&mut from)?;
         let arrival = frame.moved(&from, &frame.structure(&from.states)?, ring.time(before, frame.machine));
-        let closing = arrival.gap(&frame.normal, &arrival.turns(&frame.normal), self.stop).1;
+        let closing = frame.gap(&arrival, self.stop).1;
         Some(Rebound { speed: -restitution * closing, ..self.rebound(frame, ring, self.rest)? })
     }
 

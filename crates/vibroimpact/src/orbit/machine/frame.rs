@@ -62,6 +62,12 @@ impl<'a> MachineFrame<'a> {
         self.structure(&[vec![ContactState::Open; stops], vec![ContactState::Forward; joints]].concat())
     }
 
+    /// The gap of a stop at a state, and its rate.
+    pub(crate) fn gap(&self, place: &Place, stop: usize) -> (f64, f64) {
+        let (gap, rate, ..) = place.gap(&self.normal, &place.turns(&self.normal), stop);
+        (gap, rate)
+    }
+
     /// The motion from a state.
     pub(crate) fn resume(&self, place: Place) -> Motion<'a> {
         Motion::resumed(self.machine, self.normal.clone(), self.structures.borrow().clone(), place)

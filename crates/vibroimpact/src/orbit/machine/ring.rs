@@ -269,7 +269,7 @@ impl MachineRing {
         let m = self.len();
         for k in (0..m).filter(|k| self.events[*k].has(GuardKind::Force(stop))).collect::<Vec<_>>() {
             let place = self.place(k);
-            let depth = (-place.gap(&frame.normal, &place.turns(&frame.normal), stop).0).max(LEAST.0);
+            let depth = (-frame.gap(&place, stop).0).max(LEAST.0);
             // the surface is taken along through the events after it, until its stop closes again
             let surface = standing_back(&frame.machine.stops()[stop].law, depth)?;
             let later = |time: f64| Recovery { size: surface.size * decay(surface.rate * time).0, ..surface };

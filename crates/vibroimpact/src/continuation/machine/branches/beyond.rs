@@ -87,6 +87,20 @@ fn first_step(
     })
 }
 
+/// Adds to a row of unknowns the direction in which a contact with a stop from event `first` to event `end` grows: it lasts longer, or,
+/// where both are one impact, its velocity away from the stop is larger.
+pub(super) fn grows(frame: &MachineFrame<'_>, row: &mut [f64], (first, end): (usize, usize), stop: usize) {
+    let width = frame.shape.size() + 1;
+    if end > first {
+        row[first * width] -= 1.0;
+        row[end * width] += 1.0;
+        return;
+    }
+    for (i, direction) in frame.normal.directions[stop].iter().enumerate() {
+        row[first * width + 1 + frame.shape.n + i] -= direction;
+    }
+}
+
 /// New impacts whose phases differ by less are at one time.
 const AT_ONCE: f64 = 1e-7;
 /// The phase of a contact that lasts for no time, to rounding: its equation is divided by its duration.
@@ -125,20 +139,11 @@ fn appearing(
     let problem = with_ring(tracer, machine, next, sizes);
     let ring = &problem.equations.ring;
     let w = MachineEquations::join(machine, ring, [last(&at.w)]);
-    let width = frame.shape.size() + 1;
     let mut row = vec![0.0; w.len()];
     for (_, stop, place) in &new {
         let index = (0..ring.len()).find(|k| (ring.places[*k].phase - place.phase).abs() < AT_ONCE)?;
-        if ring.contact(index).is_some() {
-            // towards a longer contact
-            row[index * width] -= 1.0;
-            row[(index + 1) * width] += 1.0;
-        } else {
-            // towards a larger velocity away from the stop
-            for (i, direction) in frame.normal.directions[*stop].iter().enumerate() {
-                row[index * width + 1 + machine.n() + i] -= direction;
-            }
-        }
+        let end = index + usize::from(ring.contact(index).is_some());
+        grows(&frame, &mut row, (index, end), *stop);
     }
     let along = tangent(&problem.equations, &w, &row)?;
     first_step(&problem, &w, &along, options)

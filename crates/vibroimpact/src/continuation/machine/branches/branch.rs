@@ -181,9 +181,9 @@ impl EventBranch {
         if of_rest && let Some(next) = same_beyond(&self.tracer, at, &self.path.options) {
             return self.exchange(next);
         }
-        let struck = if next.is_none() { struck(&self.tracer, at, &self.path.options) } else { None };
-        let (at, next) = struck.map_or((at.clone(), next), |(at, next)| (at, Some(next)));
-        let at = &at;
+        let contact = if next.is_none() { struck(&self.tracer, at, &self.path.options) } else { None };
+        let (there, with_contact) = contact.unzip();
+        let (at, next) = (there.as_ref().unwrap_or(at), next.or(with_contact));
         let beyond = || replayed(&self.tracer, at, (&self.path.options, found));
         let Some((next, continues)) = next.map(|next| (next, true)).or_else(beyond) else {
             let next = across(&self.tracer, at, &self.path.options);
@@ -271,9 +271,7 @@ impl EventBranch {
         self.exchange(next);
         self.add(&self.tracer.here.clone(), landing);
     }
-}
 
-impl EventBranch {
     /// Whether another tracer goes back along what has been followed: with events that were left at the same number, in the other
     /// direction.
     fn goes_back(&self, next: &Tracer<MachineProblem>, number: f64) -> bool {

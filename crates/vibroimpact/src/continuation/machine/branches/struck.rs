@@ -7,7 +7,7 @@
 
 use super::at_rest::zero_near;
 use super::beginning::traced;
-use super::beyond::with_ring;
+use super::beyond::{grows, with_ring};
 use super::equations::MachineEquations;
 use super::problem::{MachineProblem, MachineSolution};
 use crate::continuation::branches::BranchOptions;
@@ -49,13 +49,12 @@ pub(super) fn struck(
         if own || !open {
             return false;
         }
-        let gap = |place: &Place| place.gap(&frame.normal, &place.turns(&frame.normal), stop).0;
         let beside = |leg: usize, time: f64| {
             let place = ring.place(leg);
-            Some(gap(&frame.moved(&place, &frame.structure(&place.states)?, time)))
+            Some(frame.gap(&frame.moved(&place, &frame.structure(&place.states)?, time), stop).0)
         };
         // among the impacts of a chatter a gap is as small, but the largest one, and during a hold it does not change
-        let least = gap(&ring.place(k));
+        let (least, _) = frame.gap(&ring.place(k), stop);
         let (before, short) = ((k + m - 1) % m, EARLY[0] / ring.frequency(machine));
         let rises = |to: Option<f64>| to.is_some_and(|to| to > least + LEAST * sizes.0);
         least.abs() < TOUCHING * sizes.0
@@ -65,10 +64,7 @@ pub(super) fn struck(
     let stops = 0..machine.stops().len();
     let touched = |k: usize| stops.clone().filter(|stop| touches(k, *stop)).collect::<Vec<_>>();
     let (k, stops) = (0..m).map(|k| (k, touched(k))).find(|(_, stops)| !stops.is_empty())?;
-    let gap = |frame: &MachineFrame<'_>, ring: &MachineRing| {
-        let place = ring.place(k);
-        Some(place.gap(&frame.normal, &place.turns(&frame.normal), stops[0]).0)
-    };
+    let gap = |frame: &MachineFrame<'_>, ring: &MachineRing| Some(frame.gap(&ring.place(k), stops[0]).0);
     let equations = &tracer.problem.equations;
     let w = zero_near(equations, &at.w, FAR, gap)?;
     let (machine, ring) = equations.split(&w)?;
@@ -82,20 +78,8 @@ pub(super) fn struck(
                 LONG.into_iter().find_map(|long| with_contact(&frame, ring, (&stops, least), (early, long)))?;
             let problem = with_ring(tracer, machine, next, sizes);
             let guess = MachineEquations::join(machine, &problem.equations.ring, [last(&at.w)]);
-            let width = frame.shape.size() + 1;
             let mut row = vec![0.0; guess.len()];
-            if count > 1 {
-                // towards a longer contact
-                row[width] -= 1.0;
-                row[count * width] += 1.0;
-            } else {
-                // towards a larger velocity away from the stop
-                for stop in &stops {
-                    for (i, direction) in frame.normal.directions[*stop].iter().enumerate() {
-                        row[width + 1 + machine.n() + i] -= direction;
-                    }
-                }
-            }
+            stops.iter().for_each(|stop| grows(&frame, &mut row, (1, count), *stop));
             let (w, _) = correct(&problem.equations, &guess, &row, dot(&row, &guess))?;
             let along = tangent(&problem.equations, &w, &row)?;
             traced(problem, w, along, *options).filter(|tracer| tracer.here.known.physical())
@@ -121,7 +105,7 @@ fn with_contact(
     let mut place = frame.moved(&from, &frame.structure(&from.states)?, (begin - next.theta(0)) / frequency);
     for stop in stops {
         let direction = &frame.normal.directions[*stop];
-        let (gap, ..) = place.gap(&frame.normal, &place.turns(&frame.normal), *stop);
+        let (gap, _) = frame.gap(&place, *stop);
         add_scaled(&mut place.x, gap / dot(direction, direction), direction);
     }
     let lap = MachineLap::fly(frame, &place, long * early / frequency)?;

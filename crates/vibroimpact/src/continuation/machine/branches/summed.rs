@@ -34,7 +34,7 @@ fn speed_before(frame: &MachineFrame<'_>, ring: &MachineRing, event: usize, stop
         Some(frame.moved(&from, &structure, ring.time(before, frame.machine)))
     };
     moved(ring.place(before)).map_or(f64::INFINITY, |at| {
-        let rate = at.gap(&frame.normal, &at.turns(&frame.normal), stop).1;
+        let rate = frame.gap(&at, stop).1;
         at.surfaces[stop].map_or(0.0, |surface| surface.rate * surface.size) - rate
     })
 }
