@@ -116,9 +116,24 @@ impl Matrix {
     pub(crate) fn apply_into(&self, vector: &[f64], image: &mut Vec<f64>) {
         fit(image, self.rows);
         let mut rest = self.values.as_slice();
-        for value in image.iter_mut() {
-            let (row, next) = rest.split_at(self.columns);
-            (*value, rest) = (dot(row, vector), next);
+        let mut next = || {
+            let (row, others) = rest.split_at(self.columns);
+            rest = others;
+            row
+        };
+        // four sums at once, because each addition of one sum waits for the one before
+        let (fours, others) = image.as_chunks_mut::<4>();
+        for four in fours {
+            let [a, b, c, d] = [next(), next(), next(), next()];
+            // a sum of none is -0, as it is in `dot`
+            let mut sums = [-0.0; 4];
+            for ((((v, a), b), c), d) in vector.iter().zip(a).zip(b).zip(c).zip(d) {
+                sums = [sums[0] + a * v, sums[1] + b * v, sums[2] + c * v, sums[3] + d * v];
+            }
+            *four = sums;
+        }
+        for value in others {
+            *value = dot(next(), vector);
         }
     }
 

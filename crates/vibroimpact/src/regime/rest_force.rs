@@ -3,7 +3,7 @@
 //! nothing.
 
 use super::signal::Signal;
-use crate::math::{Matrix, add_scaled, dot, fit};
+use crate::math::{Matrix, add_scaled, dot};
 
 /// The constant force on the modes at a position, from the force on the coordinates there.
 #[derive(Clone, Debug)]
@@ -74,10 +74,10 @@ impl RestForce {
         } else {
             x
         };
-        fit(pulled, x.len());
-        for (i, (pulled, force)) in pulled.iter_mut().zip(&self.force).enumerate() {
-            // the force less that of the springs, in the coordinates, where stiff stops are no part of it
-            *pulled = force - dot(self.stiffness.row(i), mean);
+        // the force less that of the springs, in the coordinates, where stiff stops are no part of it
+        self.stiffness.apply_into(mean, pulled);
+        for (pulled, force) in pulled.iter_mut().zip(&self.force) {
+            *pulled = force - *pulled;
         }
         self.push_of_force.apply_into(pulled, push);
         for (contact, mut gap) in self.contacts.iter().zip(gaps) {
