@@ -6,6 +6,7 @@ use vibroimpact::continuation::{Direction, machine::BranchEvent};
 use vibroimpact::events::{EventKind, Start};
 use vibroimpact::machine::{ImpactLaw, Machine, MachineParts};
 use vibroimpact::orbit::{Label, Stability, find_machine_while, machine::Cycle};
+use vibroimpact::verdict::{Census, SettleOptions, scattered_machine_starts, settle_machine};
 
 fn moduli(cycle: &Cycle) -> Vec<f64> {
     cycle.multipliers.iter().map(|multiplier| multiplier.modulus()).collect()
@@ -250,6 +251,29 @@ fn the_steady_motion_is_one_orbit() {
     let starts = (0..20).map(|k| Start { q: vec![0.1 * f64::from(k), 0.0], ..Start::default() });
     let found = find_machine_while(&machine, Label::new(0, 1), starts, &|| true).unwrap();
     assert_eq!(found.len(), 1);
+}
+
+/// Equal oscillators that touch move as one, whether an impact closed the stop between them or they come together without end. The
+/// stop pushes nothing, but attractors counted two motions.
+#[test]
+fn touching_without_force_is_no_motion_of_its_own() {
+    let parts =
+        equal(2, 1.0, |parts, k, own| parts.with_link(own, 1.0, 0.1).with_force(k, 1, 0.0, 1.0)).parts().clone();
+    let machine = Machine::new(parts.with_rigid_stop("s", &[1.0, -1.0], 0.0, 0.5)).unwrap();
+    let mut census = Census::default();
+    for k in 0..40 {
+        census.add(
+            &settle_machine(&machine, &scattered_machine_starts(&machine, 1, k), &SettleOptions::default())
+                .unwrap()
+                .verdict,
+        );
+    }
+    let closed = |at: u64| {
+        let start = scattered_machine_starts(&machine, 1, at);
+        settle_machine(&machine, &start, &SettleOptions::default()).unwrap().verdict.closed().len()
+    };
+    assert!((0..40).any(|k| closed(k) == 0) && (0..40).any(|k| closed(k) == 1));
+    assert_eq!(census.motions().len(), 1, "{:?}", census.motions());
 }
 
 /// Holds of equal parts begin and end at one time: each at its own in neighbours, so that the multipliers are those of one.

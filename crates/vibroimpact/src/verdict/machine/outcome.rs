@@ -45,6 +45,15 @@ impl State {
             .collect()
     }
 
+    /// Whether stops and joints do the same here and there. A stop that is closed without force does what one that is open or
+    /// closed does: it is reached in a finite time or never.
+    fn is_like(&self, other: &Self) -> bool {
+        let idle = |a: ContactState, b: ContactState| {
+            a == ContactState::Touching && matches!(b, ContactState::Open | ContactState::Resting)
+        };
+        self.place.states.iter().zip(&other.place.states).all(|(a, b)| a == b || idle(*a, *b) || idle(*b, *a))
+    }
+
     /// The stability of a motion without a further event from here; `None` if its regime has no structure.
     fn stability(&self, machine: &Machine) -> Option<Stability> {
         let frame = MachineFrame::new(machine);
@@ -97,11 +106,11 @@ impl System for Machine {
     /// They differ if other stops stay closed or other joints hold; the places in which joints hold are a continuum. Where impacts
     /// fade away, rounding errors decide on which stops a body rests in between.
     fn same_without_impact(a: &State, b: &State) -> bool {
-        a.fades || b.fades || a.place.states == b.place.states
+        a.fades || b.fades || a.is_like(b)
     }
 
     fn same_place(a: &State, b: &State) -> bool {
-        a.place.states == b.place.states
+        a.is_like(b)
     }
 
     fn stability(&self, verdict: &Verdict<Self>) -> Option<Stability> {
