@@ -176,7 +176,7 @@ fn a_number_of_one_part_leads_on() {
 /// rounds were one, and the product of its multipliers was a quarter of what Liouville's formula gives.
 #[test]
 fn impacts_in_turn_of_equal_parts_have_the_multipliers_of_one() {
-    let rows = |count: usize| {
+    let rows = |count: usize, stops: usize| {
         let n = 3 * count;
         let mut parts = MachineParts::new((0..n).map(|k| format!("x{k}"))).with_frequency(0.7);
         parts.impacts = ImpactLaw::InTurn;
@@ -188,19 +188,23 @@ fn impacts_in_turn_of_equal_parts_have_the_multipliers_of_one() {
             parts = parts.with_force(3 * row, 1, 0.0, 1.0);
             for k in 3 * row..3 * row + 2 {
                 let along: Vec<f64> = unit(k, 1.0).zip(unit(k + 1, 1.0)).map(|(a, b)| a - b).collect();
-                parts = parts.with_rigid_stop(&format!("s{k}"), &along, 0.0, 1.0);
+                for stop in 0..stops {
+                    parts = parts.with_rigid_stop(&format!("s{k}_{stop}"), &along, 0.0, 1.0);
+                }
             }
         }
         let start = Start { q: vec![0.0; n], ..Start::default() };
         moduli(&settled(&Machine::new(parts).unwrap(), &start).unwrap())
     };
-    let (one, two) = (rows(1), rows(2));
+    let (one, two, doubled) = (rows(1, 1), rows(2, 1), rows(1, 2));
     assert!(
         (one[0] - 0.793_593).abs() < 1e-6
             && (one[0] * one[3] - (-0.2 * core::f64::consts::TAU / 0.7).exp()).abs() < 1e-6
     );
     let twice: Vec<f64> = one.iter().flat_map(|of| [*of, *of]).collect();
     close(&two, &twice, 1e-9);
+    // a second stop at each place changes nothing
+    close(&doubled, &one, 1e-9);
 }
 
 /// Where the only impacts of equal parts have no speed, at one time, the motion without impacts follows: the branch ended there without
