@@ -19,6 +19,9 @@ export async function until(what, condition, seconds = 90) {
 /** A window for tests that wait for the whole map: the server computes what is shown, and keeps it for the next such test. */
 export const SMALL = { viewport: { width: 640, height: 500 } };
 
+/** A window for tests that measure what is on the screen. */
+export const WIDE = { viewport: { width: 1280, height: 800 } };
+
 /** The hash of the page as pairs. */
 export const hash = async (page) => new URLSearchParams((await page.evaluate(() => location.hash)).slice(1));
 

@@ -1,14 +1,14 @@
 /** Tests of the panels: enlarged, in a presentation, two points compared, basins over the phase, the sketch, the preview. */
 
 import assert from "node:assert/strict";
-import { drawn, hash, onScreen, pictures, place, until, verdict } from "./page.mjs";
+import { WIDE, drawn, hash, onScreen, pictures, place, until, verdict } from "./page.mjs";
 
 const S = "#point=1&inverse_beta=1.3&gap=0.75";
 const head = (page, name) => page.locator(`[data-name=${name}] .head`).first();
 const enlarge = (page, name) => head(page, name).getByRole("button", { name: /^Enlarge/ }).click();
 
 export async function panels_enlarge_zoom_and_return({ open, folder }) {
-  const { page } = await open(S);
+  const { page } = await open(S, WIDE);
   await until("the panels are drawn", async () => (await pictures(page)) >= 4);
   const names = ["motion", "basin", "attractors", "portrait", "quantities", "multipliers", "sections"];
   const shown = () => page.$$eval("#point > .panel:not([hidden])", (panels) => panels.map((panel) => panel.dataset.name));
@@ -50,7 +50,7 @@ export async function panels_enlarge_zoom_and_return({ open, folder }) {
 }
 
 export async function a_presentation_shows_the_map_and_one_panel({ open, folder }) {
-  const { page } = await open(S);
+  const { page } = await open(S, WIDE);
   await until("the verdict", async () => (await page.locator(".verdict .label").count()) === 1);
   const em = () => page.evaluate(() => parseFloat(getComputedStyle(document.documentElement).fontSize));
   const before = await em();

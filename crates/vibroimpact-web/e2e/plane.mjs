@@ -1,7 +1,7 @@
 /** Tests of the plane: tiles, zoom, hover, settings, address. */
 
 import assert from "node:assert/strict";
-import { SMALL, answer, complete, drawn, hash, legend, pixel, place, sharp, until } from "./page.mjs";
+import { SMALL, WIDE, answer, complete, drawn, hash, legend, pixel, place, sharp, until } from "./page.mjs";
 
 export async function loads_without_a_complaint({ open }) {
   const { page } = await open();
@@ -22,7 +22,7 @@ export async function becomes_sharp_and_the_shares_with_it({ open }) {
 }
 
 export async function zooms_ten_levels({ open }) {
-  const { page } = await open();
+  const { page } = await open("", WIDE);
   await drawn(page);
   const tiles = [];
   page.on("request", (request) => {

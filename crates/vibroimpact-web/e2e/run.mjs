@@ -51,7 +51,8 @@ function shallow(hash) {
  * `whole` it asks for the points between others that agree too: the server would compute them as long as the page is open.
  */
 async function open(hash = "", { full = false, whole = false, ...options } = {}) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+  // not large, because the server computes every point that is shown
+  const context = await browser.newContext({ viewport: { width: 1000, height: 640 }, ...options });
   if (!whole) await context.route(/\/api\/whole/, () => {});
   const page = await context.newPage();
   page.setDefaultTimeout(60000);

@@ -1,7 +1,7 @@
 /** Tests of fields, ranges, undo and links. */
 
 import assert from "node:assert/strict";
-import { drawn, hash, place, until } from "./page.mjs";
+import { WIDE, drawn, hash, place, until } from "./page.mjs";
 
 export async function a_decimal_comma_is_a_point_and_nonsense_is_refused({ open }) {
   const { page } = await open("#impacts=200");
@@ -49,7 +49,7 @@ export async function a_link_with_impossible_values_says_so({ open }) {
 }
 
 export async function ranges_are_typed_boxes_dragged_and_both_undone({ open }) {
-  const { page, context } = await open("#impacts=200");
+  const { page, context } = await open("#impacts=200", WIDE);
   await drawn(page);
   const range = (k) => page.locator(`#range-${k}`);
   assert.deepEqual(await Promise.all([0, 1, 2, 3].map((k) => range(k).inputValue())), ["0.375", "2.025", "0", "5"]);
