@@ -32,6 +32,11 @@ pub(crate) trait Problem: Clone + Debug {
     /// has no value.
     fn look(&self, w: &[f64], tangent: &[f64]) -> Option<(Vec<f64>, Self::Known)>;
 
+    /// What else is known of a solution, which does not depend on the tangent.
+    fn known(&self, w: &[f64]) -> Option<Self::Known> {
+        self.look(w, &vec![0.0; w.len()]).map(|(_, known)| known)
+    }
+
     /// The value of test function `j` at a solution; `tangent` computes the tangent there.
     fn test(&self, j: usize, w: &[f64], tangent: impl Fn() -> Option<Vec<f64>>) -> Option<f64>;
 

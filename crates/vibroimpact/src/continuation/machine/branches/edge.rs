@@ -10,21 +10,20 @@ pub(crate) fn edge<P: Problem>(
     outside: f64,
     admissible: impl Fn(&P::Known) -> bool,
 ) -> Option<(f64, Solution<P::Known>, P::Known)> {
-    let at = |s: f64| tracer.at(step, s);
+    let known = |s: f64| tracer.problem.known(&tracer.between(step, s)?);
     let (mut low, mut high) = (0.0, outside);
-    let mut inside = tracer.here.clone();
-    let mut beyond =
-        if outside == step.length { Some(step.there.known.clone()) } else { at(outside).map(|at| at.known) };
+    let mut beyond = if outside == step.length { Some(step.there.known.clone()) } else { known(outside) };
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
         if high - low <= 1e-14 * step.length.max(1e-3) {
             break;
         }
-        match at(middle) {
-            Some(solution) if admissible(&solution.known) => (low, inside) = (middle, solution),
-            Some(solution) => (high, beyond) = (middle, Some(solution.known)),
+        match known(middle) {
+            Some(known) if admissible(&known) => low = middle,
+            Some(known) => (high, beyond) = (middle, Some(known)),
             None => high = middle,
         }
     }
+    let inside = if low > 0.0 { tracer.at(step, low)? } else { tracer.here.clone() };
     Some((low, inside, beyond?))
 }

@@ -107,6 +107,22 @@ impl MachineProblem {
         Some(([plus_one, sign * shifted_determinant(&turn, 1.0), torus], multipliers))
     }
 
+    /// What is known of a solution, and what `with` makes of its frame, ring and blocks and of the test functions of bifurcations without
+    /// the first.
+    fn judged<T>(
+        &self,
+        w: &[f64],
+        with: impl FnOnce(&MachineFrame<'_>, &MachineRing, &[MachineBlock], [f64; 3]) -> T,
+    ) -> Option<(T, Judged)> {
+        let (machine, ring) = self.equations.split(w)?;
+        let frame = MachineFrame::new(&machine);
+        let blocks = ring.blocks(&frame)?;
+        // every guard must fall to zero at its event
+        let rising = blocks.iter().position(|block| block.late[0] >= 0.0).map(|k| (k + 1) % ring.len());
+        let (tests, multipliers) = Self::bifurcations(&frame, &ring, &blocks)?;
+        Some((with(&frame, &ring, &blocks, tests), judge(&frame, &ring, (multipliers, rising))))
+    }
+
     /// The component of a tangent along the number.
     fn pace(&self, tangent: &[f64]) -> f64 {
         tangent.last().map_or(0.0, |last| last / self.equations.scales[0])
@@ -159,23 +175,22 @@ impl Problem for MachineProblem {
     }
 
     fn look(&self, w: &[f64], tangent: &[f64]) -> Option<(Vec<f64>, Judged)> {
-        let (machine, ring) = self.equations.split(w)?;
-        let frame = MachineFrame::new(&machine);
-        let m = ring.len();
-        let blocks = ring.blocks(&frame)?;
-        // every guard must fall to zero at its event
-        let rising = blocks.iter().position(|block| block.late[0] >= 0.0).map(|k| (k + 1) % m);
-        let ([plus_one, minus_one, torus], multipliers) = Self::bifurcations(&frame, &ring, &blocks)?;
-        let value = |test: &TestFunction| match *test {
-            TestFunction::Pace => self.pace(tangent),
-            TestFunction::PlusOne => plus_one,
-            TestFunction::MinusOne => minus_one,
-            TestFunction::Torus => torus,
-            TestFunction::Rate(k) => rate(&frame, &ring, &blocks[(k + m - 1) % m], self.sizes.1),
-            TestFunction::Clearance(leg, guard) => clearance(&frame, &ring, (leg, guard), self.sizes),
-        };
-        let values = self.tests.iter().map(value).collect();
-        Some((values, judge(&frame, &ring, (multipliers, rising))))
+        self.judged(w, |frame, ring, blocks, [plus_one, minus_one, torus]| {
+            let m = ring.len();
+            let value = |test: &TestFunction| match *test {
+                TestFunction::Pace => self.pace(tangent),
+                TestFunction::PlusOne => plus_one,
+                TestFunction::MinusOne => minus_one,
+                TestFunction::Torus => torus,
+                TestFunction::Rate(k) => rate(frame, ring, &blocks[(k + m - 1) % m], self.sizes.1),
+                TestFunction::Clearance(leg, guard) => clearance(frame, ring, (leg, guard), self.sizes),
+            };
+            self.tests.iter().map(value).collect()
+        })
+    }
+
+    fn known(&self, w: &[f64]) -> Option<Judged> {
+        self.judged(w, |_, _, _, _| ()).map(|((), judged)| judged)
     }
 
     fn test(&self, j: usize, w: &[f64], tangent: impl Fn() -> Option<Vec<f64>>) -> Option<f64> {
