@@ -93,8 +93,9 @@ impl MachineFlight {
     /// decayed, and a period of the other modes and of the forcing has passed.
     fn has_shown_all(&self, s: f64) -> bool {
         let modes = &self.structure.modes;
-        let moves = self.structure.dense.is_some() || self.drive.ramp.iter().any(|ramp| *ramp != 0.0);
-        if modes.is_empty() || moves || modes.iter().any(|mode| mode.k == 0.0) {
+        let of_guards = self.structure.guards.iter().map(|guard| guard.function.signal.ramp);
+        let ramps = self.drive.ramp.iter().copied().chain(of_guards).any(|ramp| ramp != 0.0);
+        if self.structure.dense.is_some() || ramps || modes.iter().any(|mode| mode.k == 0.0) {
             return false;
         }
         let damped = modes.iter().filter(|mode| mode.d > 0.0).map(Mode::slowest_decay);

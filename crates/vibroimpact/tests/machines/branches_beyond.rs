@@ -298,6 +298,19 @@ fn balls(n: usize, restitution: f64, gamma: f64) -> Machine {
     Machine::new(parts).unwrap()
 }
 
+/// A table with an acceleration of exactly g pushes a ball at all times but one, at which it does not push. The verdict was undecided.
+#[test]
+fn a_ball_on_a_table_of_exactly_g_rests_for_ever() {
+    let verdict = |n: usize, restitution: f64, gamma: f64| {
+        let start = Start { q: vec![1.0; n], ..Start::default() };
+        settle_machine(&balls(n, restitution, gamma), &start, &SettleOptions::default()).unwrap().verdict
+    };
+    for (n, restitution) in [(1, 0.4), (2, 0.4), (1, 0.0)] {
+        assert!(matches!(verdict(n, restitution, 1.0), Verdict::Stuck(_)), "{n} {restitution}");
+        assert!(matches!(verdict(n, restitution, 1.0 + 1e-6), Verdict::Periodic(_)), "{n} {restitution}");
+    }
+}
+
 /// Where the table is accelerated less than a falling body a ball rests for ever: the branch of its motion ends there, at the
 /// frequency sqrt(1/Gamma), or at Gamma = 1. It ended without convergence or turned back at a `change`. Two balls beside each other are one
 /// ball twice, and the upper one of a stack has nothing to say.
