@@ -177,7 +177,7 @@ impl Cycle {
                 u32::try_from(own.count()).unwrap_or(u32::MAX)
             })
             .collect();
-        let chatter = lap.completes_chatter(frame.machine);
+        let chatter = lap.completes_chatter(frame);
         let impacts = if chatter { Count::Infinite } else { Count::Finite(counts.iter().sum()) };
         let stretchings = multipliers(frame, begin, lap);
         let logs = stretchings

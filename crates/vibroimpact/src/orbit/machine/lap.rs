@@ -2,8 +2,8 @@
 
 use super::frame::MachineFrame;
 use crate::events::{End, Event, EventKind, Passage, Place, step_derivative};
-use crate::machine::{Machine, Stop, StopLaw};
-use crate::math::Matrix;
+use crate::machine::{Stop, StopLaw};
+use crate::math::{Matrix, dot};
 use crate::regime::ContactState;
 
 /// The motion over a time.
@@ -28,6 +28,8 @@ const STEPS: usize = 100_000;
 
 /// How far flights are followed, in units of the time of the lap.
 const BEYOND: f64 = 1.25;
+/// The last impact that is followed before a rest, in parts of the largest velocity along its stop.
+const FAINT: f64 = 1e-6;
 
 impl MachineLap {
     /// The joints that hold all the time, by their places. Each keeps where it is: beside the motion there are others in which it
@@ -38,17 +40,19 @@ impl MachineLap {
         (0..places).filter(holds).collect()
     }
 
-    /// Whether infinitely many impacts are in it: some were summed, or a stop with a rebound is at rest after an impact on it, because
-    /// further ones would be below rounding errors.
-    pub(crate) fn completes_chatter(&self, machine: &Machine) -> bool {
+    /// Whether infinitely many impacts are in it: some were summed, or a stop with a rebound is at rest after an impact on it of so
+    /// little speed that further ones would be below rounding errors. After a faster one bodies can move on together too, as elastic
+    /// ones in a row do after impacts in turn.
+    pub(crate) fn completes_chatter(&self, frame: &MachineFrame<'_>) -> bool {
         let rebounds = |stop: &Stop| matches!(stop.law, StopLaw::Rigid { restitution } if restitution > 0.0);
-        let struck = |place: usize, before: &[Event]| {
-            before.iter().rev().find(|event| event.place == place).is_some_and(|event| event.kind == EventKind::Impact)
+        let faint = |event: &Event| {
+            let along = &frame.normal.directions[event.place];
+            event.kind == EventKind::Impact && event.speed <= FAINT * dot(along, along).sqrt() * self.sizes.1
         };
         let fades = |(k, event): (usize, &Event)| {
             event.kind == EventKind::Stick
-                && machine.stops().get(event.place).is_some_and(rebounds)
-                && struck(event.place, &self.events[..k])
+                && frame.machine.stops().get(event.place).is_some_and(rebounds)
+                && self.events[..k].iter().rev().find(|before| before.place == event.place).is_some_and(faint)
         };
         self.steps.iter().any(|(_, _, passage)| passage.rest.is_some()) || self.events.iter().enumerate().any(fades)
     }
