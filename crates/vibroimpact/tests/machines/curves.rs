@@ -10,7 +10,7 @@ use vibroimpact::continuation::{
     machine::{CurvePoint, Family, Plane, SolutionPoint},
 };
 use vibroimpact::events;
-use vibroimpact::machine::{Machine, MachineParts};
+use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::orbit::{find_machine_while, machine::Cycle};
 use vibroimpact::verdict::{SettleOptions, Verdict, scattered_machine_starts, settle, settle_machine};
 use vibroimpact::{Label, Oscillator, Parameter, Start};
@@ -367,5 +367,38 @@ fn the_number_of_points() {
     for curve in machine::Curve::through(&plane, (all[0].value, 0.5), &all[0], limited).unwrap() {
         let points: Vec<CurvePoint> = curve.collect();
         assert_eq!((points.len(), points[6].event), (7, Some(CurveEvent::StepLimit)));
+    }
+}
+
+/// Two equal masses whose stops, rigid or compliant, close together, one with another gap.
+fn equal_pair(rigid: bool, frequency: f64, gap: f64) -> Option<Machine> {
+    let mut parts = MachineParts::new(["a", "b"]).with_frequency(frequency);
+    for (k, (along, gap)) in [([1.0, 0.0], gap), ([0.0, 1.0], 0.2)].into_iter().enumerate() {
+        parts = parts.with_mass(k, 1.0).with_link(&along, 1.0, 0.1).with_force(k, 1, 0.0, 1.0);
+        let compliant = StopLaw::Compliant { stiffness: 20.0, damping: 0.5, preload: 0.0, opening: Opening::default() };
+        let law = if rigid { StopLaw::Rigid { restitution: 0.5 } } else { compliant };
+        parts = parts.with_stop(&format!("s{k}"), &along, gap, law);
+    }
+    Machine::new(parts).ok()
+}
+
+/// A curve over a number of one of two equal parts ends where their stops do not close together any more, on both sides: it was a
+/// `touch` on one side.
+#[test]
+fn stops_that_closed_together_close_one_after_another() {
+    for rigid in [true, false] {
+        let machine = equal_pair(rigid, 1.5, 0.2).unwrap();
+        let found = cycle(&machine, &events::Start::default());
+        let family = Family::new(move |frequency| equal_pair(rigid, frequency, 0.2));
+        let all = events((&family, 1.5), &found, 1.5..=2.5, Direction::Up);
+        let event = all.iter().find(|point| point.event.is_some_and(|event| event.name() == "flip")).unwrap();
+        let plane = Plane::new(move |frequency, gap| equal_pair(rigid, frequency, gap), (1.0..=4.0, 0.05..=1.0));
+        let points = whole(machine::Curve::through(&plane, (event.value, 0.2), event, OPTIONS).unwrap());
+        let ends = [points[0].event.unwrap(), points[points.len() - 1].event.unwrap()];
+        for end in ends {
+            assert!(matches!(end, CurveEvent::Corner { .. }), "{rigid} {ends:?}");
+            let (first, second) = (end.place().unwrap(), end.also().unwrap());
+            assert_eq!(first + second, 1, "{ends:?}");
+        }
     }
 }

@@ -109,7 +109,9 @@ pub(crate) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
     let wanted = |i: usize| (judged.from + 1 + i) % m;
     let (seen, signature) = both(ring, judged);
     let stop = |event: &RingEvent| event.guard.place(stops);
-    if let Some(k) = pair_of(&seen, &signature, is_contact) {
+    // a stop that closed together with another one may open before it
+    let apart = |k: usize| k > 0 && signature[k - 1].with.contains(&seen[k].guard);
+    if let Some(k) = pair_of(&seen, &signature, is_contact).filter(|k| !apart(*k)) {
         return Difference::Appears { at: wanted(k), stop: stop(seen[k]) };
     }
     if let Some(k) = pair_of(&signature, &seen, is_contact) {
@@ -168,6 +170,12 @@ pub(crate) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
     let early = i < m && later(&mut (1..m.min(4)).map(|k| &ring.events[wanted(i + k)]), found.guard);
     let new = || rest(found.guard, stops, found.after[other].constrains());
     match (found.guard, expected.guard) {
+        // of stops that close together this one closes first
+        (guard @ GuardKind::Gap(stop), GuardKind::Gap(_))
+            if expected.has(guard) || expected.pushed.iter().any(|(pushed, _)| *pushed == stop) =>
+        {
+            Difference::Corner { first: own, second: other }
+        }
         // a closed stop opens by its force instead of its position, or the other way round
         (GuardKind::Depth(stop), GuardKind::Force(same)) | (GuardKind::Force(stop), GuardKind::Depth(same))
             if stop == same && judged.seen.len() == m =>
