@@ -28,7 +28,7 @@ const STEPS: usize = 100_000;
 
 /// How far flights are followed, in units of the time of the lap.
 const BEYOND: f64 = 1.25;
-/// The last impact that is followed before a rest, in parts of the largest velocity along its stop.
+/// The rebound of the last impact that is followed in a chatter, in parts of the largest velocity along its stop.
 const FAINT: f64 = 1e-6;
 
 impl MachineLap {
@@ -40,19 +40,24 @@ impl MachineLap {
         (0..places).filter(holds).collect()
     }
 
-    /// Whether infinitely many impacts are in it: some were summed, or a stop with a rebound is at rest after an impact on it of so
-    /// little speed that further ones would be below rounding errors. After a faster one bodies can move on together too, as elastic
-    /// ones in a row do after impacts in turn.
+    /// Whether infinitely many impacts are in it: some were summed, or a stop is at rest after an impact on it with so slow a rebound
+    /// that further ones would be below rounding errors. After a faster one bodies can move on together too, as elastic ones in a
+    /// row do after impacts in turn.
     pub(crate) fn completes_chatter(&self, frame: &MachineFrame<'_>) -> bool {
-        let rebounds = |stop: &Stop| matches!(stop.law, StopLaw::Rigid { restitution } if restitution > 0.0);
-        let faint = |event: &Event| {
+        let faint = |event: &Event, restitution: f64| {
             let along = &frame.normal.directions[event.place];
-            event.kind == EventKind::Impact && event.speed <= FAINT * dot(along, along).sqrt() * self.sizes.1
+            event.kind == EventKind::Impact
+                && restitution > 0.0
+                && restitution * event.speed <= FAINT * dot(along, along).sqrt() * self.sizes.1
         };
         let fades = |(k, event): (usize, &Event)| {
-            event.kind == EventKind::Stick
-                && frame.machine.stops().get(event.place).is_some_and(rebounds)
-                && self.events[..k].iter().rev().find(|before| before.place == event.place).is_some_and(faint)
+            let last = self.events[..k].iter().rev().find(|before| before.place == event.place);
+            match frame.machine.stops().get(event.place).map(|stop| stop.law) {
+                Some(StopLaw::Rigid { restitution }) if event.kind == EventKind::Stick => {
+                    last.is_some_and(|last| faint(last, restitution))
+                }
+                _ => false,
+            }
         };
         self.steps.iter().any(|(_, _, passage)| passage.rest.is_some()) || self.events.iter().enumerate().any(fades)
     }
