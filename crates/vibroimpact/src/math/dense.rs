@@ -108,7 +108,9 @@ impl Matrix {
     /// The image of a vector.
     #[must_use]
     pub fn apply(&self, vector: &[f64]) -> Vec<f64> {
-        (0..self.rows).map(|i| dot(self.row(i), vector)).collect()
+        let mut image = Vec::new();
+        self.apply_into(vector, &mut image);
+        image
     }
 
     /// The image of a vector, into another one.

@@ -268,19 +268,17 @@ fn touching_without_force_is_no_motion_of_its_own() {
     let parts =
         equal(2, 1.0, |parts, k, own| parts.with_link(own, 1.0, 0.1).with_force(k, 1, 0.0, 1.0)).parts().clone();
     let machine = Machine::new(parts.with_rigid_stop("s", &[1.0, -1.0], 0.0, 0.5)).unwrap();
-    let mut census = Census::default();
-    for k in 0..40 {
-        census.add(
-            &settle_machine(&machine, &scattered_machine_starts(&machine, 1, k), &SettleOptions::default())
-                .unwrap()
-                .verdict,
-        );
-    }
-    let closed = |at: u64| {
-        let start = scattered_machine_starts(&machine, 1, at);
-        settle_machine(&machine, &start, &SettleOptions::default()).unwrap().verdict.closed().len()
+    let verdict = |k: u64| {
+        let start = scattered_machine_starts(&machine, 1, k);
+        settle_machine(&machine, &start, &SettleOptions::default()).unwrap().verdict
     };
-    assert!((0..40).any(|k| closed(k) == 0) && (0..40).any(|k| closed(k) == 1));
+    let verdicts: Vec<_> = (0..40).map(verdict).collect();
+    let some = |closed: usize| verdicts.iter().any(|verdict| verdict.closed().len() == closed);
+    assert!(some(0) && some(1));
+    let mut census = Census::default();
+    for verdict in &verdicts {
+        census.add(verdict);
+    }
     assert_eq!(census.motions().len(), 1, "{:?}", census.motions());
 }
 

@@ -51,10 +51,10 @@ impl MachineLap {
                 && restitution * event.speed <= FAINT * dot(along, along).sqrt() * self.sizes.1
         };
         let fades = |(k, event): (usize, &Event)| {
-            let last = self.events[..k].iter().rev().find(|before| before.place == event.place);
+            let last = || self.events[..k].iter().rev().find(|before| before.place == event.place);
             match frame.machine.stops().get(event.place).map(|stop| stop.law) {
                 Some(StopLaw::Rigid { restitution }) if event.kind == EventKind::Stick => {
-                    last.is_some_and(|last| faint(last, restitution))
+                    last().is_some_and(|last| faint(last, restitution))
                 }
                 _ => false,
             }

@@ -79,6 +79,11 @@ impl RingEvent {
         self.guards().any(|own| own == guard)
     }
 
+    /// Whether it has an impulse on this stop.
+    pub(crate) fn pushes(&self, stop: usize) -> bool {
+        self.pushed.iter().any(|(pushed, _)| *pushed == stop)
+    }
+
     /// Whether nothing happens at it, where `before` are the states before.
     pub(crate) fn touches(&self, before: &[ContactState]) -> bool {
         self.pushed.is_empty() && self.after == before

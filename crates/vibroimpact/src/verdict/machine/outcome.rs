@@ -45,8 +45,9 @@ impl State {
             .collect()
     }
 
-    /// Whether stops and joints do the same here and there. A stop that is closed without force does what one that is open or
-    /// closed does: it is reached in a finite time or never.
+    /// Whether stops and joints do the same here and there. A stop that is closed without force tells no motions apart: where bodies
+    /// come together without end it is open in the same motion, and where another stop lies at its place that one can be told to bear
+    /// the force.
     fn is_like(&self, other: &Self) -> bool {
         let idle = |a: ContactState, b: ContactState| {
             a == ContactState::Touching && matches!(b, ContactState::Open | ContactState::Resting)

@@ -31,8 +31,7 @@ impl Tally {
         for (k, event) in ring.events.iter().enumerate() {
             let before = &ring.events[(k + m - 1) % m].after;
             // of stops at one place only one closes
-            let closes =
-                |stop: usize| event.pushed.iter().any(|(j, _)| *j == stop) || event.after[stop] != before[stop];
+            let closes = |stop: usize| event.pushes(stop) || event.after[stop] != before[stop];
             let with = event.with.iter().filter(|kind| closes(kind.place(stops)));
             if !event.touches(before) && !summed.contains(&k) && event.rests_on().is_none() {
                 for kind in core::iter::once(&event.guard).chain(with) {

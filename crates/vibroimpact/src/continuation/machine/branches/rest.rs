@@ -83,7 +83,7 @@ fn guards(frame: &MachineFrame<'_>, states: &[ContactState], contact: usize) -> 
 fn still(frame: &MachineFrame<'_>, ring: &MachineRing, (at, contact): (usize, usize)) -> bool {
     let (m, stops) = (ring.len(), frame.machine.stops());
     let event = &ring.events[at];
-    if event.pushed.iter().any(|(j, _)| *j == contact) {
+    if event.pushes(contact) {
         return matches!(stops[contact].law, StopLaw::Rigid { restitution } if restitution == 0.0);
     }
     let own = event.guard.place(stops.len()) == contact;
