@@ -311,7 +311,7 @@ mod tests_of_machines {
     use crate::machine::CATALOGUE;
     use crate::machine::MachineSource;
     use crate::{Plan, PlanResults, Results, Task, run};
-    use vibroimpact::continuation::machine::{BranchEvent, SolutionPoint};
+    use vibroimpact::continuation::{BranchEvent, machine::SolutionPoint};
     use vibroimpact::orbit::machine::Cycle;
 
     fn hammer() -> MachineSource {

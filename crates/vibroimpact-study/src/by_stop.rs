@@ -14,15 +14,6 @@ pub struct ImpactsByStop {
     pub lower: Option<u32>,
 }
 
-/// The number of a stop of an oscillator: 0 of the first, 1 of the second.
-#[must_use]
-pub const fn stop_number(side: Side) -> usize {
-    match side {
-        Side::Upper => 0,
-        Side::Lower => 1,
-    }
-}
-
 impl ImpactsByStop {
     /// The numbers of a motion; `None` if there is no second stop, or if the motion does not repeat.
     #[must_use]

@@ -24,7 +24,7 @@
 //! | what tasks ask of an oscillator and of a machine alike | [`Dynamics`] |
 //! | a line along which orbits are followed | [`OrbitLine`] |
 //! | a branch of periodic orbits in one parameter, and the branches that begin on it | [`BranchPlan`], [`Branches`] |
-//! | the orbit at which a branch begins; the data of an event on a branch | [`Chosen`], [`EventRecord`] |
+//! | the orbit at which a branch begins | [`Chosen`] |
 //! | a curve of folds, flips or grazing impacts in two parameters | [`CurvePlan`], [`EventCurve`] |
 //! | the regions where a motion exists and where it is stable | [`RegionPlan`], [`Regions`], [`stability_regions`] |
 //! | a quantity of all motions over one parameter | [`ResponsePlan`], [`ResponseCurves`] |
@@ -49,7 +49,6 @@ mod dynamics;
 mod edge;
 mod error;
 mod event_columns;
-mod event_record;
 mod field;
 mod grid;
 mod in_memory;
@@ -84,7 +83,7 @@ mod words;
 pub use axis::{Axis, Coordinate, Values, typed_axes};
 pub use basin::{Basin, BasinPlan, NO_START};
 pub use branch::{BranchPlan, Branches, DEFAULT_BRANCH_POINTS, Followed, Origin};
-pub use by_stop::{ImpactsByStop, stop_number};
+pub use by_stop::ImpactsByStop;
 pub use chosen::{Chosen, OrbitNumber};
 pub use control::{Control, Meter, Stopped, TileMeter, tiles};
 pub use curve::{CurvePlan, EventCurve, FollowedEvent};
@@ -94,7 +93,6 @@ pub use dynamics::{CycleOf, Dynamics, PointOf, Setup, machine_label, quantity_pa
 pub use edge::{EdgePlan, PlacePlan};
 pub use error::{PlanError, RunError};
 pub use event_columns::{END_REASONS, EventColumns, REAL_COLUMNS};
-pub use event_record::EventRecord;
 pub use field::{Column, Extra, Field, NumberType};
 pub use grid::{Block, Dimension, Grid, number, place};
 pub use limits::PLAN_VERSION;

@@ -2,16 +2,14 @@
 
 use crate::branch::{Followed, Origin};
 use crate::dynamics::not_stopped;
-use crate::event_record::EventRecord;
 use crate::machine::MachineSource;
 use crate::{Control, Cut, FollowedEvent, PlanError, RunError, Stopped};
 use core::fmt::Debug;
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
-use vibroimpact::continuation::machine::BranchEvent as MachineEvent;
 use vibroimpact::continuation::{self, Branch, BranchError, BranchEvent, BranchOptions, Direction, machine};
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::Stability;
+use vibroimpact::orbit::{self, Stability};
 use vibroimpact::verdict::{Count, System};
 use vibroimpact::{Label, Oscillator, ParameterPath};
 
@@ -24,123 +22,107 @@ pub trait Solution: Clone + Debug {
     fn value(&self) -> f64;
     /// The cycle there.
     fn cycle(&self) -> &<Self::System as System>::Cycle;
-    /// Whether the cycle is a motion; solutions of the equations of an oscillator may pass through a stop.
-    fn admissible(&self) -> bool;
+    /// The event at this point; `None` for an ordinary point.
+    fn event(&self) -> Option<BranchEvent>;
     /// Whether neighbours approach the cycle.
     fn stability(&self) -> Stability;
-    /// The name of the event at this point; `None` for an ordinary point.
-    fn event_name(&self) -> Option<&'static str>;
-    /// Whether the branch ends here.
-    fn ends(&self) -> bool;
-    /// Whether the number reached the end of its range here.
-    fn ends_range(&self) -> bool;
-    /// Whether the branch is closed here.
-    fn closes(&self) -> bool;
-    /// Whether other branches begin here.
-    fn begins_others(&self) -> bool;
-    /// Whether the branch ends here on that of half the period.
-    fn halves(&self) -> bool;
-    /// Whether the event is of a kind that curves follow.
-    fn is(&self, kind: FollowedEvent) -> bool;
 
-    /// The label of the cycle.
+    /// Whether the cycle is a motion: a branch of a machine ends where its orbit ceases to be admissible, but solutions of the
+    /// equations of an oscillator may pass through a stop.
+    fn admissible(&self) -> bool {
+        true
+    }
+
+    /// The name of the event at this point.
+    fn event_name(&self) -> Option<&'static str> {
+        self.event().map(|event| event.name())
+    }
+
+    /// Whether the branch ends here.
+    fn ends(&self) -> bool {
+        self.event().is_some_and(|event| event.ends())
+    }
+
+    /// Whether the branch is closed here.
+    fn closes(&self) -> bool {
+        self.event() == Some(BranchEvent::Closed)
+    }
+
+    /// Whether other branches begin here.
+    fn begins_others(&self) -> bool {
+        self.admissible() && matches!(self.event(), Some(BranchEvent::Flip | BranchEvent::BranchPoint))
+    }
+
+    /// Whether the event is of a kind that curves follow.
+    fn is(&self, kind: FollowedEvent) -> bool {
+        use BranchEvent as Event;
+        self.event().is_some_and(|event| match kind {
+            FollowedEvent::Fold => matches!(event, Event::Fold),
+            FollowedEvent::Flip => matches!(event, Event::Flip),
+            FollowedEvent::Torus => matches!(event, Event::Torus),
+            FollowedEvent::Grazing => matches!(event, Event::Grazing { .. } | Event::LossOfContact { .. }),
+            FollowedEvent::Corner => matches!(event, Event::Corner { .. }),
+            FollowedEvent::Sticking => matches!(event, Event::Sticking { .. }),
+            FollowedEvent::Holding => matches!(event, Event::Holding { .. }),
+        })
+    }
+
+    /// The label of the cycle; at an event of the cycle before it.
     fn label(&self) -> Label {
         Self::System::label(self.cycle())
     }
 
-    /// The label beyond the event at this point; `None` if the branch ends. `next` is the next point.
-    fn label_after(&self, next: impl FnOnce() -> Option<Self>) -> Option<String> {
-        if self.ends() { None } else { next().map(|next| next.label().to_string()) }
+    /// The label beyond the event at this point, if the event leads to another motion; `next` is the label of the next point.
+    fn label_after(&self, next: impl FnOnce() -> Option<Label>) -> Option<Label> {
+        match self.event()?.detail() {
+            Some(detail) => detail.labels.1,
+            None if self.ends() => None,
+            None => next(),
+        }
     }
-}
-
-/// What the points of branches of both kinds of system say alike of their events.
-macro_rules! events {
-    ($event:ident) => {
-        fn value(&self) -> f64 {
-            self.value
-        }
-
-        fn cycle(&self) -> &<Self::System as System>::Cycle {
-            &self.cycle
-        }
-
-        fn stability(&self) -> Stability {
-            self.cycle.stability()
-        }
-
-        fn event_name(&self) -> Option<&'static str> {
-            self.event.map(|event| event.name())
-        }
-
-        fn ends(&self) -> bool {
-            self.event.is_some_and(|event| event.ends())
-        }
-
-        fn ends_range(&self) -> bool {
-            matches!(self.event, Some($event::EndOfRange))
-        }
-
-        fn closes(&self) -> bool {
-            matches!(self.event, Some($event::Closed))
-        }
-
-        fn begins_others(&self) -> bool {
-            self.admissible() && matches!(self.event, Some($event::Flip | $event::BranchPoint))
-        }
-
-        fn halves(&self) -> bool {
-            matches!(self.event, Some($event::Halving))
-        }
-    };
 }
 
 impl Solution for continuation::SolutionPoint {
     type System = Oscillator;
 
-    events!(BranchEvent);
+    fn value(&self) -> f64 {
+        self.value
+    }
+
+    fn cycle(&self) -> &orbit::Cycle {
+        &self.cycle
+    }
+
+    fn event(&self) -> Option<BranchEvent> {
+        self.event
+    }
+
+    fn stability(&self) -> Stability {
+        self.cycle.stability()
+    }
 
     fn admissible(&self) -> bool {
         self.physical
-    }
-
-    fn is(&self, kind: FollowedEvent) -> bool {
-        self.event.is_some_and(|event| match kind {
-            FollowedEvent::Fold => matches!(event, BranchEvent::Fold),
-            FollowedEvent::Flip => matches!(event, BranchEvent::Flip),
-            FollowedEvent::Grazing => matches!(event, BranchEvent::Grazing { .. } | BranchEvent::LossOfContact { .. }),
-            FollowedEvent::Torus | FollowedEvent::Corner | FollowedEvent::Sticking | FollowedEvent::Holding => false,
-        })
-    }
-
-    /// The event says it.
-    fn label_after(&self, _: impl FnOnce() -> Option<Self>) -> Option<String> {
-        self.event.and_then(|event| EventRecord::of(self, &event).label_after)
     }
 }
 
 impl Solution for machine::SolutionPoint {
     type System = Machine;
 
-    events!(MachineEvent);
-
-    /// A branch of a machine ends where its orbit ceases to be admissible.
-    fn admissible(&self) -> bool {
-        true
+    fn value(&self) -> f64 {
+        self.value
     }
 
-    fn is(&self, kind: FollowedEvent) -> bool {
-        self.event.is_some_and(|event| match kind {
-            FollowedEvent::Fold => matches!(event, MachineEvent::Fold),
-            FollowedEvent::Flip => matches!(event, MachineEvent::Flip),
-            FollowedEvent::Torus => matches!(event, MachineEvent::Torus),
-            FollowedEvent::Grazing => {
-                matches!(event, MachineEvent::Grazing { .. } | MachineEvent::LossOfContact { .. })
-            }
-            FollowedEvent::Corner => matches!(event, MachineEvent::Corner { .. }),
-            FollowedEvent::Sticking => matches!(event, MachineEvent::Sticking { .. }),
-            FollowedEvent::Holding => matches!(event, MachineEvent::Holding { .. }),
-        })
+    fn cycle(&self) -> &orbit::machine::Cycle {
+        &self.cycle
+    }
+
+    fn event(&self) -> Option<BranchEvent> {
+        self.event
+    }
+
+    fn stability(&self) -> Stability {
+        self.cycle.stability()
     }
 }
 
@@ -225,7 +207,7 @@ pub struct OrbitLine<A> {
 pub type BranchPlace = (String, f64);
 
 /// The first event of a branch, if there is one, and the label beyond it unless the branch ends.
-type FirstEvent<P> = Option<(P, Option<String>)>;
+type FirstEvent<P> = Option<(P, Option<Label>)>;
 
 /// Branches that begin on another one, and the events at which a branch was expected but could not be followed.
 type Beginning<P> = (Vec<Followed<P>>, Vec<Origin<P>>);
@@ -306,9 +288,9 @@ impl<A: Along> OrbitLine<A> {
         let mut branch = A::branch(self, at, direction).map_err(PlanError::from)?;
         let event = branch.by_ref().take_while(|_| !control.stopping()).find(|point| point.event_name().is_some());
         not_stopped(control)?;
-        let event = event.filter(|point| !point.ends_range());
+        let event = event.filter(|point| point.event() != Some(BranchEvent::EndOfRange));
         Ok(event.map(|point| {
-            let after = point.label_after(|| branch.next());
+            let after = point.label_after(|| branch.next().map(|next| next.label()));
             (point, after)
         }))
     }
@@ -364,5 +346,5 @@ fn other_end<P: Solution>(point: &P) -> Option<BranchPlace> {
     let label = point.label();
     let Count::Finite(impacts) = label.impacts else { return None };
     let half = Label { impacts: Count::Finite(impacts / 2), periods: label.periods / 2 };
-    point.halves().then(|| (half.to_string(), point.value()))
+    (point.event() == Some(BranchEvent::Halving)).then(|| (half.to_string(), point.value()))
 }

@@ -12,8 +12,8 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 use vibroimpact::continuation::{
-    BranchOptions, Direction,
-    machine::{Branch, BranchEvent, Family, SolutionPoint},
+    BranchEvent, BranchOptions, Direction,
+    machine::{Branch, Family, SolutionPoint},
 };
 use vibroimpact::events::{EventKind, Start};
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};

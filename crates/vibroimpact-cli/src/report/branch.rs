@@ -3,12 +3,12 @@
 use crate::report::diagram::range;
 use crate::report::words::{stop_name, table};
 use std::fmt::Write;
-use vibroimpact::continuation::{BranchEvent, Change, SolutionPoint, Touch, machine};
+use vibroimpact::continuation::{BranchEvent, SolutionPoint};
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::Cycle;
 use vibroimpact::verdict::Stability;
 use vibroimpact_report::json::branch::{
-    BranchAnswer, BranchEventObject, BranchObject, ChosenObject, Event, OriginObject, PointObject,
+    BranchAnswer, BranchEventObject, BranchObject, ChosenObject, EventOf, OriginObject, PointObject,
 };
 use vibroimpact_report::number::{precise, short};
 use vibroimpact_report::{Units, Varied};
@@ -103,7 +103,7 @@ fn events(side: &Side<'_, '_>, columns: &Columns) -> String {
         // without forcing the label does not say the period
         let period = side.branch.points[event.point].period;
         let period = if columns.period { format!(", period {}", precise(period)) } else { String::new() };
-        let (value, name, why) = (precise(event.parameter), event.kind, because(&event.event));
+        let (value, name, why) = (precise(event.parameter), event.kind, because(event.event, event.of));
         let _ = writeln!(text, "  ends at {} {value}{period}, {before}: {name}{why}", columns.names[0]);
     }
     text
@@ -114,7 +114,7 @@ fn row(side: &Side<'_, '_>, place: usize, event: &BranchEventObject<'_>, columns
     let before = &event.fields.before;
     let after = event.fields.after.as_ref().unwrap_or(before);
     // on the other side of a jump there is another part of the branch
-    let jumps = |place: usize| side.event(place).is_some_and(|event| event.event.is_jump());
+    let jumps = |place: usize| side.event(place).is_some_and(|event| event.event == BranchEvent::Jump);
     let next_to = |jump: bool, neighbour: Option<usize>, label: &str| {
         if jump { "-".to_owned() } else { beside(side, neighbour, label) }
     };
@@ -123,7 +123,7 @@ fn row(side: &Side<'_, '_>, place: usize, event: &BranchEventObject<'_>, columns
     core::iter::once(event.kind.to_owned())
         .chain(point.values().iter().copied().chain(columns.period.then_some(point.period)).map(precise))
         .chain(sides)
-        .chain([remark(&event.event)])
+        .chain([remark(event.event, event.of)])
         .collect()
 }
 
@@ -133,7 +133,7 @@ fn beside(side: &Side<'_, '_>, neighbour: Option<usize>, label: &str) -> String 
     let Some((place, point)) = neighbour.and_then(|k| Some((k, side.point(k)?))) else { return label.to_owned() };
     let event = side.event(place);
     match event {
-        _ if point.label == label && event.is_none_or(|event| event.event.is_end_of_range()) => state(point),
+        _ if point.label == label && event.is_none_or(|event| event.event == BranchEvent::EndOfRange) => state(point),
         Some(event) if event.fields.ends => format!("{label} not followed"),
         _ => format!("{label} unresolved"),
     }
@@ -145,23 +145,25 @@ fn state(point: &PointObject<'_>) -> String {
 }
 
 /// What an event means, without its name.
-pub(crate) fn remark(event: &Event<'_>) -> String {
-    match event {
-        Event::Oscillator(point, event) => of_oscillator(point, event),
-        Event::Machine(machine, event) => of_machine(event, machine),
+pub(crate) fn remark(event: BranchEvent, of: EventOf<'_>) -> String {
+    match (event, of) {
+        (BranchEvent::Halving, _) => "it becomes an orbit of half the period".into(),
+        (BranchEvent::StepLimit, _) => "--points allows more".into(),
+        (_, EventOf::Oscillator(point)) => of_oscillator(point, event),
+        (_, EventOf::Machine(machine)) => of_machine(event, machine),
     }
 }
 
 /// The same after a colon; empty if there is nothing to say.
-pub(crate) fn because(event: &Event<'_>) -> String {
-    let why = remark(event);
+pub(crate) fn because(event: BranchEvent, of: EventOf<'_>) -> String {
+    let why = remark(event, of);
     if why.is_empty() { why } else { format!(": {why}") }
 }
 
-fn of_machine(event: &machine::BranchEvent, machine: &Machine) -> String {
+fn of_machine(event: BranchEvent, machine: &Machine) -> String {
     let name = |place: usize| machine.name_of(place);
-    match *event {
-        machine::BranchEvent::Grazing { stop, also, appears, turns } => {
+    match event {
+        BranchEvent::Grazing { stop, also, appears, turns, .. } => {
             let verb = if appears { "appear" } else { "disappear" };
             let way = if turns { "turns" } else { "goes on" };
             match also {
@@ -169,71 +171,61 @@ fn of_machine(event: &machine::BranchEvent, machine: &Machine) -> String {
                 None => format!("an impact on {} {verb}s; the parameter {way}", name(stop)),
             }
         }
-        machine::BranchEvent::LossOfContact { stop } => format!("{} is no longer reached", name(stop)),
-        machine::BranchEvent::RestForEver { stop } => format!("no force pulls it off {} any more", name(stop)),
-        machine::BranchEvent::Corner { first, second } if first == second => {
+        BranchEvent::LossOfContact { stop, .. } => format!("{} is no longer reached", name(stop)),
+        BranchEvent::RestForEver { stop } => format!("no force pulls it off {} any more", name(stop)),
+        BranchEvent::Corner { first, second } if first == second => {
             format!("two limits of {} at once", name(first))
         }
-        machine::BranchEvent::Corner { first, second } => {
+        BranchEvent::Corner { first, second } => {
             format!("{} and {} at once", name(first), name(second))
         }
-        machine::BranchEvent::Sticking { stop: place, .. }
-        | machine::BranchEvent::Holding { joint: place, .. }
-        | machine::BranchEvent::Change { place: Some(place) } => format!("at {}", name(place)),
-        machine::BranchEvent::Halving => HALF.into(),
-        machine::BranchEvent::StepLimit => LIMIT.into(),
+        BranchEvent::Sticking { stop: place, .. }
+        | BranchEvent::Holding { joint: place, .. }
+        | BranchEvent::Change { place: Some(place) } => format!("at {}", name(place)),
         _ => String::new(),
     }
 }
 
-const HALF: &str = "it becomes an orbit of half the period";
-const LIMIT: &str = "--points allows more";
-
 /// The change of an impact at a grazing event.
-fn touch(cycle: &Cycle, change: Change, touch: &Touch) -> String {
-    let (impact, stop, phase) = (touch.impact + 1, stop_name(touch.side), short(touch.phase));
-    match change {
-        Change::Appears if cycle.points.is_empty() => format!("an impact on the {stop} appears, phase {phase}"),
+fn touch(cycle: &Cycle, appears: bool, (stop, impact, phase): (usize, Option<usize>, f64)) -> String {
+    let (stop, phase) = (stop_name(vibroimpact::Side::at(stop)), short(phase));
+    match impact.map(|impact| impact + 1) {
+        None => format!("an impact on the {stop} appears, phase {phase}"),
+        Some(impact) if !appears => format!("impact {impact} on the {stop} disappears, phase {phase}"),
         // the list of a cycle with sticking begins at a release
-        Change::Appears if !cycle.rests.is_empty() && impact == cycle.points.len() => {
+        Some(impact) if !cycle.rests.is_empty() && impact == cycle.points.len() => {
             format!("an impact on the {stop} appears after the release, phase {phase}")
         }
-        Change::Appears => format!("an impact on the {stop} appears after impact {impact}, phase {phase}"),
-        Change::Disappears => format!("impact {impact} on the {stop} disappears, phase {phase}"),
+        Some(impact) => format!("an impact on the {stop} appears after impact {impact}, phase {phase}"),
     }
 }
 
-fn of_oscillator(point: &SolutionPoint, event: &BranchEvent) -> String {
+fn of_oscillator(point: &SolutionPoint, event: BranchEvent) -> String {
+    let name = event.place().map_or("stop", |stop| stop_name(vibroimpact::Side::at(stop)));
+    let detail = event.detail();
+    let phase = detail.map_or_else(String::new, |detail| short(detail.phase));
     match event {
-        BranchEvent::Grazing { change, impact, side, phase, turns, also, .. } => {
+        BranchEvent::Grazing { stop, also, appears, turns, detail: Some(detail) } => {
             let way = match (point.cycle.rests.is_empty(), turns) {
                 (true, true) => "; the parameter turns",
                 (true, false) => "; the parameter goes on",
                 (false, _) => "",
             };
-            let touches = [Some(Touch { impact: *impact, side: *side, phase: *phase }), *also];
-            let said: Vec<String> = touches.iter().flatten().map(|one| touch(&point.cycle, *change, one)).collect();
+            let other = also.zip(detail.also).map(|(stop, (impact, phase))| (stop, impact, phase));
+            let touches = [Some((stop, detail.impact, detail.phase)), other];
+            let said: Vec<String> =
+                touches.into_iter().flatten().map(|one| touch(&point.cycle, appears, one)).collect();
             format!("{}{way}", said.join(", and "))
         }
-        BranchEvent::SoftLanding { side, phase, .. } => {
-            format!("it lands on the {} without speed, phase {}", stop_name(*side), short(*phase))
+        BranchEvent::SoftLanding { .. } => format!("it lands on the {name} without speed, phase {phase}"),
+        BranchEvent::EndOfRest { .. } => format!("the rest on the {name} is over as it begins, phase {phase}"),
+        BranchEvent::RestForEver { .. } => format!("the force no longer pulls the mass off the {name}"),
+        BranchEvent::Chatter { .. } => {
+            let label = point.cycle.label;
+            format!("impacts are added without end, towards a rest on the {name} at phase {phase}; beyond, {label}")
         }
-        BranchEvent::EndOfRest { side, phase } => {
-            format!("the rest on the {} is over as it begins, phase {}", stop_name(*side), short(*phase))
-        }
-        BranchEvent::RestForEver { side } => format!("the force no longer pulls the mass off the {}", stop_name(*side)),
-        BranchEvent::Chatter { side, phase, .. } => format!(
-            "impacts are added without end, towards a rest on the {} at phase {}; beyond, {}",
-            stop_name(*side),
-            short(*phase),
-            point.cycle.label
-        ),
-        BranchEvent::LossOfContact { side, phase } => {
-            format!("the mass no longer reaches the {}, phase {}", stop_name(*side), short(*phase))
-        }
+        BranchEvent::LossOfContact { .. } => format!("the mass no longer reaches the {name}, phase {phase}"),
         BranchEvent::Stick { impact } => format!("the mass stays on the stop after impact {}", impact + 1),
-        BranchEvent::Halving => HALF.into(),
-        BranchEvent::StepLimit => LIMIT.into(),
         BranchEvent::ImpactLimit => "more impacts than are followed".into(),
         _ => String::new(),
     }

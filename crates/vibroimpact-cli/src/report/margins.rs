@@ -68,7 +68,7 @@ fn row<V: Varied, P: Solution>(
     let ends = match end.point.as_ref().and_then(|point| Some((point, point.event_name()?))) {
         Some((point, name)) => {
             let relative = end.relative(scope).map_or_else(String::new, |share| format!("{:+.2} %", 100.0 * share));
-            let before = point.label().to_string();
+            let before = point.label();
             let beyond = end.after.as_ref().filter(|after| **after != before);
             let beyond = beyond.map_or_else(String::new, |after| format!(" to {after}"));
             let event = format!("{name}{beyond}{}", why(point));

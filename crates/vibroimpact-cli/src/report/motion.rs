@@ -17,7 +17,7 @@ use vibroimpact::quantities::machine::{Part, Quantities as PartQuantities};
 use vibroimpact::quantities::{Quantity, machine_cycle_quantities, machine_quantities, of_verdict};
 use vibroimpact::verdict::machine::longest_flight;
 use vibroimpact::verdict::{Count, Settled, StartBox, Undecided, UndecidedCause, Verdict};
-use vibroimpact_report::json::branch::Event as BranchEvent;
+use vibroimpact_report::json::branch::EventOf;
 use vibroimpact_report::json::undecided;
 use vibroimpact_report::number::short;
 use vibroimpact_report::{AnswerOf, Told};
@@ -196,7 +196,7 @@ impl Teller for SystemPlan {
     }
 
     fn because(_: &AnswerOf<Self>, point: &SolutionPoint) -> String {
-        point.event.map_or_else(String::new, |event| because(&BranchEvent::Oscillator(point, event)))
+        point.event.map_or_else(String::new, |event| because(event, EventOf::Oscillator(point)))
     }
 
     fn of_margins(of: &AnswerOf<Self>, found: &MotionMargins) -> String {
@@ -317,7 +317,7 @@ impl Teller for MachineSource {
     }
 
     fn because(of: &AnswerOf<Self>, point: &machine::SolutionPoint) -> String {
-        point.event.map_or_else(String::new, |event| because(&BranchEvent::Machine(&of.system, event)))
+        point.event.map_or_else(String::new, |event| because(event, EventOf::Machine(&of.system)))
     }
 }
 

@@ -3,7 +3,7 @@
 use super::AnswerOf;
 use crate::json::attractors::Area;
 use crate::json::basin::MeasureFields;
-use crate::json::branch::{BranchAnswer, BranchObject, EventPoint};
+use crate::json::branch::{BranchAnswer, BranchObject};
 use crate::json::curve::CurveAnswer;
 use crate::json::event::{StateObject, Stops};
 use crate::json::lyapunov::LyapunovAnswer;
@@ -20,7 +20,7 @@ use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{Census, Settled, Verdict};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::{
-    Along, Basin, Branches, CurvePlan, Cut, CycleOf, Dynamics, EventCurve, Orbit, PlanError, PointOf, ResponseCurves,
+    Basin, Branches, CurvePlan, Cut, CycleOf, Dynamics, EventCurve, Orbit, PlanError, PointOf, ResponseCurves,
     SectionPoints, Simulated,
 };
 
@@ -36,14 +36,7 @@ pub(crate) type BasinOf<D> = Basin<<D as Dynamics>::System, <D as Dynamics>::Coo
 /// A system whose answers are told. Errors are those of what cannot be drawn or tabulated, and of names of plans.
 #[allow(clippy::missing_errors_doc, clippy::must_use_candidate, reason = "all have the errors of the trait")]
 pub trait Told:
-    Dynamics<
-        Name: Varied,
-        Coordinate: Varied,
-        Quantity: FieldName,
-        Shown: ShownValue,
-        System: Stops,
-        Along: Along<Point: EventPoint>,
-    >
+    Dynamics<Name: Varied, Coordinate: Varied, Quantity: FieldName, Shown: ShownValue, System: Stops>
 {
     /// The machine, if the system is one.
     fn machine(_: &AnswerOf<Self>) -> Option<&Machine> {

@@ -2,7 +2,7 @@
 
 use crate::figure::label;
 use crate::figure::styles::EVENT_COLOURS;
-use crate::json::branch::EventPoint;
+use crate::json::event::Stops;
 use crate::json::margins::ParameterObject;
 use crate::number::short;
 use crate::varied::Varied;
@@ -12,7 +12,7 @@ use vibroimpact_plot::{
     Anchor, ClassStyle, Colour, Dash, Figure, FigureAxis, Hatch, Legend, Panel, Pattern, Rect, Rects, SERIES, Stroke,
     Text, Tick, VLine, class_style,
 };
-use vibroimpact_study::MotionMargins;
+use vibroimpact_study::{MotionMargins, Solution};
 
 /// Half the thickness of a bar.
 const HALF: f64 = 0.3;
@@ -49,7 +49,7 @@ pub fn shares(found: &[(String, f64)], title: String) -> Figure {
 ///
 /// # Errors
 /// [`ReportError::NoMargins`] for a motion without a branch.
-pub(crate) fn margins<S: System, V: Varied, P: EventPoint<System = S>>(
+pub(crate) fn margins<S: System + Stops, V: Varied, P: Solution<System = S>>(
     found: &MotionMargins<S, V, P>,
     (system, units): (&S, &Units),
     title: String,

@@ -7,7 +7,7 @@ use core::f64::consts::PI;
 use vibroimpact::machine::Machine;
 use vibroimpact::{Oscillator, Side, Stop};
 use vibroimpact_plot::{COLUMN, Colour, Figure, FigureAxis, Legend, Panel, Points, Tick, plain};
-use vibroimpact_study::{SectionPoints, SystemPlan, stop_number};
+use vibroimpact_study::{SectionPoints, SystemPlan};
 
 /// Maximum number of distinct points that are drawn as large dots.
 const FEW: usize = 200;
@@ -48,7 +48,7 @@ pub fn figure(found: &SectionPoints, osc: &Oscillator, asked: &Asked) -> Figure 
                 format!("second stop, *δ*_2 = {gap}, *ε*_2 = {restitution}").replace('-', "−")
             }
         };
-        (stop_number(side), name)
+        (side.place(), name)
     };
     let look = Look {
         caption: "impacts",

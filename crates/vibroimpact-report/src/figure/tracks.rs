@@ -5,6 +5,7 @@ use crate::json::branch::{BranchObject, PointObject};
 use crate::json::event::closings;
 use crate::number::Number;
 use std::collections::BTreeMap;
+use vibroimpact::continuation::BranchEvent;
 use vibroimpact::system::phase;
 
 /// The look of a part of a branch.
@@ -58,6 +59,18 @@ pub(crate) struct Track {
     pub(crate) positions: bool,
 }
 
+/// Whether a cycle that sticks may have other closings with the same label beyond an event.
+const fn changes_closings(event: BranchEvent) -> bool {
+    matches!(
+        event,
+        BranchEvent::Grazing { .. }
+            | BranchEvent::SoftLanding { .. }
+            | BranchEvent::Sticking { .. }
+            | BranchEvent::Corner { .. }
+            | BranchEvent::Change { .. }
+    )
+}
+
 impl TrackPoint {
     /// The ordinates of all impacts or states.
     pub(crate) fn ordinates(&self) -> Vec<f64> {
@@ -69,7 +82,7 @@ impl TrackPoint {
         let (point, event) = (&branch.points[k], branch.event_at(k));
         let (list, places) = what.list(point);
         let sticks = point.cycle.iter().any(|event| event.kind == "stick");
-        let changes = event.is_some_and(|event| event.event.changes_closings());
+        let changes = event.is_some_and(|event| changes_closings(event.event));
         Self {
             value: point.parameter,
             label: point.label.clone(),

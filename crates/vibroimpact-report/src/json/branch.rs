@@ -14,9 +14,9 @@ use vibroimpact::continuation::{BranchEvent, SolutionPoint};
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::verdict::Stability;
-use vibroimpact::{Label, Oscillator};
+use vibroimpact::{Label, Side};
 use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::{Branches, Chosen, Cut, EventRecord, Followed, OrbitNumber, Origin, Solution};
+use vibroimpact_study::{Branches, Chosen, Cut, Followed, OrbitNumber, Origin, Solution};
 
 /// The mark of the point from which a branch was followed both ways.
 pub(crate) const START: &str = "start";
@@ -147,16 +147,19 @@ pub struct BranchEventObject<'a> {
     pub fields: EventFields<'a>,
     /// The event itself.
     #[serde(skip)]
-    pub event: Event<'a>,
+    pub event: BranchEvent,
+    /// What it happens to.
+    #[serde(skip)]
+    pub of: EventOf<'a>,
 }
 
-/// An event of a branch of an oscillator at a point, or of a machine.
+/// What an event of a branch happens to.
 #[derive(Clone, Copy, Debug)]
-pub enum Event<'a> {
-    /// Of an oscillator.
-    Oscillator(&'a SolutionPoint, BranchEvent),
-    /// Of a machine.
-    Machine(&'a Machine, machine::BranchEvent),
+pub enum EventOf<'a> {
+    /// An oscillator, at a point of its branch.
+    Oscillator(&'a SolutionPoint),
+    /// A machine.
+    Machine(&'a Machine),
 }
 
 /// The fields of an event that do not depend on the branch.
@@ -252,11 +255,7 @@ impl<'a> BranchObject<'a> {
     /// A branch of an oscillator with these points and this start.
     pub(crate) fn of_oscillator(points: &'a [SolutionPoint], start: Option<usize>, cut: &Cut, asked: &Asked) -> Self {
         let objects = points.iter().map(|point| PointObject::of_oscillator(point, cut, asked));
-        let event = |point: &'a SolutionPoint| {
-            let event = point.event?;
-            Some((Event::Oscillator(point, event), EventFields::of_record(EventRecord::of(point, &event))))
-        };
-        Self::new(objects.collect(), start, points.iter().map(event))
+        Self::new(objects.collect(), start, points, &|stop| side(Side::at(stop)), EventOf::Oscillator)
     }
 
     /// A branch of a machine with these points and this start, and a quantity of each.
@@ -267,28 +266,26 @@ impl<'a> BranchObject<'a> {
         (machine, quantity): (&'a Machine, Option<&BranchQuantity<'_>>),
     ) -> Self {
         let objects = points.iter().map(|point| PointObject::of_machine(point, machine, cut, quantity));
-        let event = |k: usize| {
-            let event = points[k].event?;
-            // a point at an event has the cycle before it
-            let next = if k < start.unwrap_or(0) { k.checked_sub(1) } else { Some(k + 1) };
-            let after = next.and_then(|next| Some(points.get(next)?.cycle.label.to_string()));
-            let labels = (points[k].cycle.label, after);
-            Some((Event::Machine(machine, event), EventFields::of_machine(event, labels, machine)))
-        };
-        Self::new(objects.collect(), start, (0..points.len()).map(event))
+        Self::new(objects.collect(), start, points, &|place| machine.name_of(place), |_| EventOf::Machine(machine))
     }
 
-    fn new(
+    fn new<P: Solution>(
         points: Vec<PointObject<'a>>,
         start: Option<usize>,
-        events: impl Iterator<Item = Option<(Event<'a>, EventFields<'a>)>>,
+        solutions: &'a [P],
+        name: &dyn Fn(usize) -> &'a str,
+        of: impl Fn(&'a P) -> EventOf<'a>,
     ) -> Self {
-        let event = |(k, at): (usize, Option<(Event<'a>, EventFields<'a>)>)| {
-            let (event, fields) = at?;
+        let event = |(k, at): (usize, &'a P)| {
+            let event = at.event()?;
+            // a point at an event has the cycle before it
+            let next = if k < start.unwrap_or(0) { k.checked_sub(1) } else { Some(k + 1) };
+            let after = at.label_after(|| Some(solutions.get(next?)?.label()));
+            let fields = EventFields::of(event, (at.label(), after), name);
             let (parameter, values) = (points[k].parameter, points[k].values);
-            Some(BranchEventObject { kind: event.name(), parameter, values, point: k, fields, event })
+            Some(BranchEventObject { kind: event.name(), parameter, values, point: k, fields, event, of: of(at) })
         };
-        let events: Vec<_> = events.enumerate().filter_map(event).collect();
+        let events: Vec<_> = solutions.iter().enumerate().filter_map(event).collect();
         let begin = events.first().filter(|event| event.point == 0 && start.is_some()).map(|event| event.kind);
         let end = events.last().filter(|event| event.point + 1 == points.len()).map(|event| event.kind);
         Self { from: None, start, points, events, begin, end }
@@ -383,113 +380,33 @@ fn both<V: Varied>(value: f64, cut: &Cut<V>, units: &Units) -> Option<[f64; 2]> 
     Some([values.next()?, values.next()?])
 }
 
-impl Event<'_> {
-    /// Its name.
-    #[must_use]
-    pub const fn name(&self) -> &'static str {
-        match self {
-            Self::Oscillator(_, event) => event.name(),
-            Self::Machine(_, event) => event.name(),
-        }
-    }
-
-    /// Whether a branch goes on here, beyond values at which it has no solution.
-    #[must_use]
-    pub const fn is_jump(&self) -> bool {
-        matches!(self, Self::Machine(_, machine::BranchEvent::Jump))
-    }
-
-    /// Whether what varies reached the end of its range.
-    #[must_use]
-    pub const fn is_end_of_range(&self) -> bool {
-        use machine::BranchEvent as M;
-        matches!(self, Self::Oscillator(_, BranchEvent::EndOfRange) | Self::Machine(_, M::EndOfRange))
-    }
-
-    /// Whether only the search for the branch ends there, and nothing happens to the motion.
-    pub(crate) const fn is_end_of_search(&self) -> bool {
-        use BranchEvent as E;
-        use machine::BranchEvent as M;
-        match self {
-            Self::Oscillator(_, event) => {
-                matches!(event, E::Closed | E::EndOfRange | E::StepLimit | E::ImpactLimit | E::NoConvergence)
-            }
-            Self::Machine(_, event) => {
-                matches!(event, M::Closed | M::EndOfRange | M::StepLimit | M::Discontinuity | M::NoConvergence)
-            }
-        }
-    }
-
-    /// Whether a cycle that sticks may have other closings with the same label beyond it.
-    pub(crate) const fn changes_closings(&self) -> bool {
-        use BranchEvent as E;
-        use machine::BranchEvent as M;
-        match self {
-            Self::Oscillator(_, event) => matches!(event, E::Grazing { .. } | E::SoftLanding { .. }),
-            Self::Machine(_, event) => {
-                matches!(event, M::Grazing { .. } | M::Sticking { .. } | M::Corner { .. } | M::Change { .. })
-            }
-        }
-    }
-}
-
-/// A point of a branch, whose event is told.
-pub trait EventPoint: Solution {
-    /// What is told of the event besides its name; `after` is the label beyond it.
-    fn fields<'a>(&self, after: Option<String>, system: &'a Self::System) -> EventFields<'a>;
-}
-
-impl EventPoint for SolutionPoint {
-    fn fields<'a>(&self, _: Option<String>, _: &'a Oscillator) -> EventFields<'a> {
-        self.event.map(|event| EventFields::of_record(EventRecord::of(self, &event))).unwrap_or_default()
-    }
-}
-
-impl EventPoint for machine::SolutionPoint {
-    fn fields<'a>(&self, after: Option<String>, machine: &'a Machine) -> EventFields<'a> {
-        let of = |event| EventFields::of_machine(event, (self.cycle.label, after), machine);
-        self.event.map(of).unwrap_or_default()
-    }
-}
-
 impl<'a> EventFields<'a> {
-    /// Those of an event of a machine, from the labels before and after it.
-    pub(crate) fn of_machine(
-        event: machine::BranchEvent,
-        (before, after): (Label, Option<String>),
-        machine: &'a Machine,
+    /// Those of an event, from the labels before and after it and the names of stops and joints.
+    pub(crate) fn of(
+        event: BranchEvent,
+        (before, after): (Label, Option<Label>),
+        name: &dyn Fn(usize) -> &'a str,
     ) -> Self {
         let (appears, turns) = match event {
-            machine::BranchEvent::Grazing { appears, turns, .. } => (Some(appears), Some(turns)),
+            BranchEvent::Grazing { appears, turns, .. } => (Some(appears), Some(turns)),
             _ => (None, None),
         };
-        let touch = |place: usize| TouchObject { impact: None, stop: machine.name_of(place), phase: None };
+        let (number, detail) = (|impact: usize| impact + 1, event.detail());
+        let alone = if let BranchEvent::Stick { impact } = event { Some(impact) } else { None };
+        let touch = |place: usize| {
+            let (impact, phase) = detail.and_then(|detail| detail.also).unzip();
+            TouchObject { impact: impact.flatten().map(number), stop: name(place), phase }
+        };
         Self {
             ends: event.ends(),
-            before: before.to_string(),
-            after: after.filter(|_| !event.ends()),
-            stop: event.place().map(|place| machine.name_of(place)),
+            before: detail.map_or(before, |detail| detail.labels.0).to_string(),
+            after: after.map(|after| after.to_string()),
+            stop: event.place().map(name),
             appears,
             turns,
+            impact: detail.and_then(|detail| detail.impact).or(alone).map(number),
+            phase: detail.map(|detail| detail.phase),
             also: event.also().map(touch),
-            ..Self::default()
-        }
-    }
-}
-
-impl EventFields<'static> {
-    pub(super) fn of_record(record: EventRecord) -> Self {
-        let EventRecord { ends, label_before, label_after, change, impact, side: at, phase, turns, also, .. } = record;
-        Self {
-            ends,
-            before: label_before,
-            after: label_after,
-            stop: at.map(side),
-            appears: change.map(|change| change == "appears"),
-            turns,
-            impact,
-            phase,
-            also: also.map(|(impact, at, phase)| TouchObject { impact, stop: side(at), phase: Some(phase) }),
         }
     }
 }

@@ -12,7 +12,6 @@ use vibroimpact::orbit::Cycle;
 use vibroimpact::quantities::{Segment, cycle_segments};
 use vibroimpact::{Oscillator, Side, Start};
 use vibroimpact_study::machine::contact_word;
-use vibroimpact_study::stop_number;
 
 /// The name of a stop of an oscillator.
 #[must_use]
@@ -31,7 +30,7 @@ pub trait Stops {
 
 impl Stops for Oscillator {
     fn name_of_stop(&self, stop: usize) -> &str {
-        side(if stop == stop_number(Side::Upper) { Side::Upper } else { Side::Lower })
+        side(Side::at(stop))
     }
 }
 

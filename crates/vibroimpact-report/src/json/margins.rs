@@ -1,13 +1,15 @@
 //! The nearest events of a motion in each parameter, and the box of parameters in which the motion was found.
 
-use super::branch::{EventFields, EventPoint};
+use super::branch::EventFields;
+use super::event::Stops;
 use super::motion::MotionObject;
 use crate::Units;
 use crate::varied::Varied;
 use schemars::JsonSchema;
 use serde::Serialize;
+use vibroimpact::continuation::BranchEvent;
 use vibroimpact::verdict::System;
-use vibroimpact_study::{MotionBox, MotionMargins, ParameterMargin, Scope};
+use vibroimpact_study::{MotionBox, MotionMargins, ParameterMargin, Scope, Solution};
 
 /// The answer to `vibro margins`.
 #[derive(JsonSchema, Serialize)]
@@ -110,7 +112,7 @@ struct ValueObject<'a> {
 }
 
 impl<'a> MarginsAnswer<'a> {
-    pub(super) fn new<S: System, V: Varied, P: EventPoint<System = S>>(
+    pub(super) fn new<S: System + Stops, V: Varied, P: Solution<System = S>>(
         found: &'a MotionMargins<S, V, P>,
         system: &'a S,
         motion: MotionObject<'a>,
@@ -131,7 +133,7 @@ impl<'a> MarginsAnswer<'a> {
 }
 
 impl<'a> ParameterObject<'a> {
-    pub(crate) fn new<V: Varied, P: EventPoint>(
+    pub(crate) fn new<V: Varied, P: Solution<System: Stops>>(
         margin: &'a ParameterMargin<V, P>,
         system: &'a P::System,
         units: &Units,
@@ -139,13 +141,16 @@ impl<'a> ParameterObject<'a> {
         let scope = &margin.scope;
         let unit = scope.parameter.unit(units);
         let [down, up] = margin.ends().map(|(_, limit, end)| {
-            let event = end.point.as_ref().and_then(|point| Some((point, point.event_name()?)));
+            let event = end.point.as_ref().and_then(|point| Some((point, point.event()?)));
+            let fields = |(point, event): (&P, BranchEvent)| {
+                EventFields::of(event, (point.label(), end.after), &|place| system.name_of_stop(place))
+            };
             EndObject {
                 limit: limit * unit,
                 at: event.map(|_| end.value * unit),
                 distance: event.map(|_| end.distance(scope) * unit),
                 relative: event.and_then(|_| end.relative(scope)),
-                event: event.map(|(point, kind)| MarginEvent { kind, fields: point.fields(end.after.clone(), system) }),
+                event: event.map(|at| MarginEvent { kind: at.1.name(), fields: fields(at) }),
             }
         });
         let (parameter, value, scale) = (scope.parameter.field(units), scope.value * unit, scope.scale * unit);

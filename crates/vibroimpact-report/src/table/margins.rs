@@ -2,18 +2,18 @@
 
 use super::Table;
 use crate::Units;
-use crate::json::branch::EventPoint;
+use crate::json::event::Stops;
 use crate::json::margins::ParameterObject;
 use crate::number::Number;
 use crate::varied::Varied;
 use vibroimpact::verdict::System;
-use vibroimpact_study::MotionMargins;
+use vibroimpact_study::{MotionMargins, Solution};
 
 const HEADER: &str = "parameter,value,direction,limit,at,distance,relative,event,before,after";
 
 /// The table of `vibro margins`.
 #[must_use]
-pub(crate) fn table<'a, S: System, V: Varied, P: EventPoint<System = S>>(
+pub(crate) fn table<'a, S: System + Stops, V: Varied, P: Solution<System = S>>(
     found: &'a MotionMargins<S, V, P>,
     system: &'a S,
     units: Units,

@@ -46,7 +46,7 @@ impl MotionKind {
 pub enum DiagramPoint {
     /// A closing of a stop: an impact.
     Impact {
-        /// The number of the stop; of an oscillator [`stop_number`](crate::stop_number).
+        /// The number of the stop; of an oscillator [`Side::place`](vibroimpact::Side::place).
         stop: usize,
         /// Phase of the forcing.
         phase: f64,

@@ -1,7 +1,6 @@
 //! The impacts of a motion after its transient.
 
 use super::follow::{AfterTransient, DiagramPoint, MotionKind, SAME, budget};
-use crate::stop_number;
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::motion::{End, EventKind, ImpactState, MAX_TOUCHES, Motion};
 use vibroimpact::system::phase;
@@ -32,7 +31,7 @@ pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, k
                 if struck <= transient {
                     continue;
                 }
-                let point = DiagramPoint::Impact { stop: stop_number(state.side), phase: state.phase, speed: velocity };
+                let point = DiagramPoint::Impact { stop: state.side.place(), phase: state.phase, speed: velocity };
                 let again = points.first().is_some_and(|first| same(first, &point));
                 if !again {
                     points.push(point);
@@ -43,7 +42,7 @@ pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, k
             }
             EventKind::Stick { chatter: true, .. } if !points.is_empty() => {
                 fading.rests();
-                points.push(DiagramPoint::Chatter { stop: stop_number(event.side), phase: event.phase });
+                points.push(DiagramPoint::Chatter { stop: event.side.place(), phase: event.phase });
             }
             EventKind::Graze { .. } => {
                 touches += 1;

@@ -2,7 +2,7 @@
 
 use crate::diagram::{EVENTS_EACH, at_phase_zero};
 use crate::dynamics::refused;
-use crate::{RunError, Stopped, motion_limits, stop_number};
+use crate::{RunError, Stopped, motion_limits};
 use vibroimpact::chaos::Section;
 use vibroimpact::events;
 use vibroimpact::events::{Event, Motion, Sample};
@@ -40,7 +40,7 @@ impl SectionPoints {
             let sign = at.side.sign();
             // without a rebound 0, not -0
             let after = state(sign * gap, -sign * restitution * at.velocity + 0.0, at.phase);
-            SectionClosing { stop: stop_number(at.side), speed: at.velocity, state: after }
+            SectionClosing { stop: at.side.place(), speed: at.velocity, state: after }
         };
         let strobe = |at: &Start| state(at.x, at.v, at.phase);
         Self {

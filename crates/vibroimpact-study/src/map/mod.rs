@@ -6,7 +6,7 @@ pub use plan::MapPlan;
 pub(crate) use plan::{check_impacts, check_refine, options};
 
 use crate::study::code;
-use crate::{Axis, Coordinate, ImpactsByStop, ListedColumn, Quantity, stop_number};
+use crate::{Axis, Coordinate, ImpactsByStop, ListedColumn, Quantity};
 use std::borrow::Cow;
 use vibroimpact::Oscillator;
 use vibroimpact::chaos::Arrivals;
@@ -120,7 +120,7 @@ fn shares(osc: &Oscillator, plan: &MapPlan, settlement: Settlement) -> Vec<Share
             share: share(count),
             speed: cycle.map_or(f64::NAN, |cycle| cycle.fastest()),
             multiplier: verdict.multipliers(osc).map_or(f64::NAN, |[a, b]| a.modulus().max(b.modulus())),
-            stops: if let Verdict::Stuck(side) = &verdict { vec![stop_number(*side)] } else { Vec::new() },
+            stops: if let Verdict::Stuck(side) = &verdict { vec![side.place()] } else { Vec::new() },
             seen_events: verdict.seen_events(),
             by_stop: cycle.map(ImpactsByStop::of_cycle),
             quantities: quantities(&verdict, &tail),

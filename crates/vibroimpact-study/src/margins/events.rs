@@ -8,7 +8,7 @@ use crate::orbit_line::Solution;
 use crate::{Control, Cut, Parameter, RunError};
 use vibroimpact::Oscillator;
 use vibroimpact::continuation::{Direction, SolutionPoint};
-use vibroimpact::verdict::{System, Verdict};
+use vibroimpact::verdict::{Label, System, Verdict};
 
 /// The distances of a motion of any system from its nearest events.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,7 +40,7 @@ pub struct MarginEnd<P = SolutionPoint> {
     /// The point of the branch with its event; `None` if there is no event up to the end of the range.
     pub point: Option<P>,
     /// The label beyond the event; `None` if there is none, or if the branch ends.
-    pub after: Option<String>,
+    pub after: Option<Label>,
 }
 
 impl<P> MarginEnd<P> {

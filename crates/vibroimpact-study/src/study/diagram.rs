@@ -3,7 +3,7 @@
 use super::sweeps::{SweepFill, Swept, kind, stored};
 use crate::diagram::{Diagram, DiagramPoint, DiagramStep, Show, Sweep, step};
 use crate::field::{Column, Extra, Field, NumberType};
-use crate::{DiagramPlan, Parameter, PlanError, SystemPlan, Unit, stop_number};
+use crate::{DiagramPlan, Parameter, PlanError, SystemPlan, Unit};
 use vibroimpact::{Side, Start};
 
 /// Oscillators over a parameter, or along a line through two.
@@ -97,7 +97,7 @@ impl Swept for OscillatorDiagram {
 
 /// The sign of the number that stands for a stop in stores.
 const fn sign(stop: usize) -> i8 {
-    if stop == stop_number(Side::Upper) { 1 } else { -1 }
+    if stop == Side::Upper.place() { 1 } else { -1 }
 }
 
 /// The diagram from the columns of its study, with the motions in the order of [`Diagram`].
@@ -106,7 +106,7 @@ const fn sign(stop: usize) -> i8 {
 pub(crate) fn diagram_of(plan: &DiagramPlan, columns: &[Column]) -> Diagram {
     let real = |k: usize| columns.get(k).map_or(&[][..], Column::real);
     let (first, second, sides) = (real(1), real(2), columns.get(3).map_or(&[][..], Column::flags));
-    let stop = |sign: i8| stop_number(if sign > 0 { Side::Upper } else { Side::Lower });
+    let stop = |sign: i8| (if sign > 0 { Side::Upper } else { Side::Lower }).place();
     stored(plan, columns, |at| {
         let (a, b) = (*first.get(at)?, *second.get(at)?);
         Some(match (plan.show, sides.get(at).copied().unwrap_or(0)) {

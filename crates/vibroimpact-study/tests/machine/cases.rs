@@ -4,8 +4,8 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 use vibroimpact::chaos::machine_exponents_while;
 use vibroimpact::continuation::{
-    BranchOptions, Direction,
-    machine::{Branch, BranchEvent, Family},
+    BranchEvent, BranchOptions, Direction,
+    machine::{Branch, Family},
 };
 use vibroimpact::events::{End, Event, EventKind, Limits, Motion, Start};
 use vibroimpact::machine::{ImpactLaw, Machine};
@@ -382,7 +382,7 @@ fn c24_n() {
     let options = BranchOptions::default();
     let branch = Branch::new((&family, value), &cycle, &range, Direction::Up, options).unwrap();
     let events: Vec<_> = branch.filter_map(|point| Some((point.event?, point.value))).collect();
-    let grazing = BranchEvent::Grazing { stop: 0, also: None, appears: false, turns: true };
+    let grazing = BranchEvent::Grazing { stop: 0, also: None, appears: false, turns: true, detail: None };
     for (event, value) in [
         (BranchEvent::Fold, 0.278_507_288_818_434_6),
         (grazing, 0.258_480_239_026_615_1),

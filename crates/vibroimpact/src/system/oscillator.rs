@@ -47,6 +47,12 @@ impl Side {
         }
     }
 
+    /// The side of the stop at this [`place`](Self::place).
+    #[must_use]
+    pub const fn at(place: usize) -> Self {
+        if place == 0 { Self::Upper } else { Self::Lower }
+    }
+
     /// The side with this [`sign`](Self::sign).
     #[inline]
     pub(crate) const fn of_sign(sign: f64) -> Self {

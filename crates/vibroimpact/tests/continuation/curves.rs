@@ -73,8 +73,7 @@ fn resonant_grazing_of_one_impact() {
         let last = branch.last().unwrap();
         let orbit = refine(&at(1.2, f, 0.5, zeta), &last.cycle).unwrap();
         assert!(orbit.cycle.points[0].state.velocity.abs() < 1e-9);
-        let phase = orbit.cycle.points[0].state.phase;
-        let event = Some(BranchEvent::LossOfContact { side: vibroimpact::Side::Upper, phase });
+        let event = Some(BranchEvent::LossOfContact { stop: 0, detail: None });
         let point = SolutionPoint { value: f, cycle: orbit.cycle, physical: true, event };
         let points = curve(&osc, &point, &frame(1.05..=high, 0.0..=12.0));
         for p in &points {

@@ -1,6 +1,8 @@
 //! The steady motion without impacts on branches, from and to its touch of a stop.
 
-use vibroimpact::continuation::{Branch, BranchError, BranchEvent, BranchOptions, Change, Direction, SolutionPoint};
+use vibroimpact::continuation::{
+    Branch, BranchError, BranchEvent, BranchOptions, Direction, EventDetail, SolutionPoint,
+};
 use vibroimpact::orbit::{FindOptions, find, without_impacts};
 use vibroimpact::verdict::{SettleOptions, Verdict, settle};
 use vibroimpact::{Label, Oscillator, Parameter, Start};
@@ -30,10 +32,12 @@ fn from_the_free_motion_through_its_touch_to_1_1() {
     let expected = [("grazing", "0"), ("fold", "1/1"), ("end of range", "1/1")];
     assert_eq!(names(&points), expected.map(|(name, label)| (name, label.to_string())));
     let graze = points.iter().find(|p| matches!(p.event, Some(BranchEvent::Grazing { .. }))).unwrap();
-    let Some(BranchEvent::Grazing { change: Change::Appears, before, after, turns, phase, .. }) = graze.event else {
+    let Some(BranchEvent::Grazing { appears: true, turns, detail: Some(EventDetail { labels, phase, .. }), .. }) =
+        graze.event
+    else {
         panic!("{:?}", graze.event)
     };
-    assert_eq!((before, after, turns), (Label::new(0, 1), Label::new(1, 1), true));
+    assert_eq!((labels, turns), ((Label::new(0, 1), Some(Label::new(1, 1))), true));
     assert!((graze.value - 10.0).abs() < 1e-12 && (phase - std::f64::consts::PI).abs() < 1e-12);
     assert!(points.iter().all(|p| p.physical));
     assert!(points.iter().filter(|p| p.cycle.points.is_empty()).all(|p| p.value >= 10.0 - 1e-12 && p.stable()));
@@ -93,7 +97,7 @@ fn two_stops_alike_are_touched_together() {
     let osc = Oscillator::new(1.9, 1.0, 0.6).unwrap().with_damping(0.1).unwrap().with_second_stop(1.0, 0.6).unwrap();
     let points = branch(&osc, Parameter::Beta, (1.2, 2.0), Direction::Down);
     let graze = points.iter().find(|p| matches!(p.event, Some(BranchEvent::Grazing { .. }))).unwrap();
-    let Some(BranchEvent::Grazing { after, .. }) = graze.event else { panic!() };
+    let after = graze.event.and_then(|event| event.detail()?.labels.1).unwrap();
     assert_eq!(after, Label::new(2, 1));
     let next = points.iter().find(|p| p.event.is_none() && p.cycle.label == after && p.cycle.fastest() > 1e-3).unwrap();
     assert!(next.physical);

@@ -3,7 +3,7 @@
 //! method has to converge as near to the grazing as one likes.
 
 use crate::guess;
-use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, SolutionPoint};
+use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, EventDetail, SolutionPoint};
 use vibroimpact::orbit::{FindOptions, find, refine};
 use vibroimpact::{Label, Oscillator, Parameter};
 
@@ -36,12 +36,12 @@ fn from_gap_one_to_the_grazing() {
         assert!(off.abs() < 1e-11, "{off:e} at {}", point.value);
     }
     let events: Vec<(BranchEvent, f64)> = points.iter().filter_map(|p| Some((p.event?, p.value))).collect();
-    let [(BranchEvent::Fold, fold), (BranchEvent::Grazing { phase, after, turns, .. }, graze), (end, _)] = events[..]
-    else {
+    let [(BranchEvent::Fold, fold), (event @ BranchEvent::Grazing { turns, .. }, graze), (end, _)] = events[..] else {
         panic!("{events:?}")
     };
+    let EventDetail { phase, labels: (_, after), .. } = event.detail().unwrap();
     // the gentle orbit comes from above, and the motion without impacts goes back up
-    assert!(after == Label::new(0, 1) && turns && end == BranchEvent::EndOfRange);
+    assert!(after == Some(Label::new(0, 1)) && turns && end == BranchEvent::EndOfRange);
     assert!((fold - 10.0 * (1.0 + (a / b).powi(2)).sqrt()).abs() < 1e-11, "{fold}");
     assert!((graze - 10.0).abs() < 1e-11, "{graze}");
     // the steady motion is a quarter of a period behind

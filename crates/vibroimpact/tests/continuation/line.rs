@@ -1,7 +1,7 @@
 //! The line 1/beta = 1.11, eps = 1/2 without damping: 1/1, its doubling, what branches off and comes back as 1/2, the
 //! doubling of that, down to loss of contact at delta = |f|. Each event is confirmed by simulation on either side of it.
 
-use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Change, Direction, SolutionPoint};
+use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, SolutionPoint};
 use vibroimpact::motion::{EventKind, ImpactState, Motion};
 use vibroimpact::orbit::{Cycle, FindOptions, Orbit, find, refine};
 use vibroimpact::verdict::{SettleOptions, Verdict, settle};
@@ -102,8 +102,11 @@ fn the_events_in_their_order() {
     let down = branch(Label::new(1, 1), 1.0, Direction::Down);
     assert_eq!(events(&down)[0].0, "grazing");
     assert!((events(&down)[0].2 - FIRST_GRAZE).abs() < 1e-12);
-    let Some(BranchEvent::Grazing { change, after, turns, .. }) = down.iter().find_map(|p| p.event) else { panic!() };
-    assert_eq!((change, after, turns), (Change::Appears, Label::new(2, 1), true));
+    let Some(BranchEvent::Grazing { appears, turns, detail: Some(detail), .. }) = down.iter().find_map(|p| p.event)
+    else {
+        panic!()
+    };
+    assert_eq!((appears, detail.labels.1, turns), (true, Some(Label::new(2, 1)), true));
 }
 
 #[test]
@@ -184,8 +187,9 @@ fn where_1_2_doubles_and_2_4_touches() {
     assert_ne!(settled(four, QUARTER_GRAZE + 1e-4, 1e-5), "2/4");
     // an impact appears and the gap goes on growing: 3/4 exists beyond, unstable
     let grazing = doubled.iter().find(|p| matches!(p.event, Some(BranchEvent::Grazing { .. }))).unwrap();
-    let Some(BranchEvent::Grazing { after, turns, .. }) = grazing.event else { panic!() };
-    assert_eq!((after, turns), (Label::new(3, 4), false));
+    let Some(BranchEvent::Grazing { turns, detail: Some(detail), .. }) = grazing.event else { panic!() };
+    let after = Label::new(3, 4);
+    assert_eq!((detail.labels.1, turns), (Some(after), false));
     for h in [1e-5, 1e-8] {
         let (before, past) = (refined(four, QUARTER_GRAZE - h), refined(four, QUARTER_GRAZE + h));
         assert!(before.physical && flown(&before.cycle, QUARTER_GRAZE - h));
@@ -205,7 +209,8 @@ fn contact_is_lost_where_the_free_motion_fits() {
     let f = at(0.0).free_amplitude();
     let points = branch(Label::new(1, 1), 1.0, Direction::Up);
     let last = points.last().unwrap();
-    assert!(matches!(last.event, Some(BranchEvent::LossOfContact { phase, .. }) if (phase.sin() - 1.0).abs() < 1e-9));
+    let Some(BranchEvent::LossOfContact { detail: Some(detail), .. }) = last.event else { panic!("{last:?}") };
+    assert!((detail.phase.sin() - 1.0).abs() < 1e-9);
     assert!(last.cycle.fastest().abs() < 1e-9);
     for h in [1e-3, 1e-6, 1e-9] {
         let inside = refined(&nearest(&points, "1/1", false, f - h).clone(), f - h);

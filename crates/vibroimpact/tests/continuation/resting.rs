@@ -2,8 +2,8 @@
 //! completes, and by motions settled on either side.
 
 use std::f64::consts::{PI, TAU};
-use vibroimpact::continuation::{Branch, BranchError, BranchEvent, BranchOptions, Change, Curve, CurveOptions};
-use vibroimpact::continuation::{Direction, Frame, SolutionPoint};
+use vibroimpact::continuation::{Branch, BranchError, BranchEvent, BranchOptions, Curve, CurveOptions};
+use vibroimpact::continuation::{Direction, EventDetail, Frame, SolutionPoint};
 use vibroimpact::orbit::{Cycle, DEFAULT_EVENTS, FindOptions, find, from_release};
 use vibroimpact::verdict::{Count, SettleOptions, Verdict, settle};
 use vibroimpact::{Label, Oscillator, Parameter, Side, Start};
@@ -55,13 +55,13 @@ fn settled(osc: &Oscillator, side: Side) -> String {
 fn a_chatter_that_only_just_completes() {
     let at = |gap: f64| Oscillator::from_inverse_beta(1.11, gap, 0.5).unwrap();
     let down = branch(&at(-0.5), Side::Upper, Parameter::Gap, (-1.2, 0.5), Direction::Down);
-    assert_eq!(events(&down), [(-1.0, BranchEvent::RestForEver { side: Side::Upper })]);
+    assert_eq!(events(&down), [(-1.0, BranchEvent::RestForEver { stop: 0 })]);
     assert_eq!(
         (settled(&at(-1.0 + 1e-3), Side::Upper).as_str(), settled(&at(-1.0), Side::Upper).as_str()),
         ("inf/1", "stuck")
     );
     let up = branch(&at(-0.5), Side::Upper, Parameter::Gap, (-1.2, 0.5), Direction::Up);
-    let [(end, BranchEvent::EndOfRest { side: Side::Upper, phase })] = events(&up)[..] else {
+    let [(end, BranchEvent::EndOfRest { stop: 0, detail: Some(EventDetail { phase, .. }) })] = events(&up)[..] else {
         panic!("{:?}", events(&up))
     };
     assert!((phase - (PI - end.asin())).abs() < 1e-14);
@@ -105,7 +105,9 @@ fn ever_more_impacts_tend_to_a_chatter() {
         let branch = Branch::new(&at(1.0), begin, Parameter::Gap, -1.0..=2.0, Direction::Down, options).unwrap();
         let points: Vec<SolutionPoint> = branch.collect();
         let last = points.last().unwrap();
-        let Some(BranchEvent::Chatter { side: Side::Upper, phase, before }) = last.event else {
+        let Some(BranchEvent::Chatter { stop: 0, detail: Some(EventDetail { phase, labels: (before, _), .. }) }) =
+            last.event
+        else {
             panic!("{:?} at {}", last.event, last.value)
         };
         let rest = branch_end();
@@ -115,7 +117,7 @@ fn ever_more_impacts_tend_to_a_chatter() {
         // the touches at which m/1 gains an impact, and their factor: lambda^5/eps^2 with (2 + lambda) lambda^2 = eps (1 + 2 lambda)
         let added: Vec<f64> = points
             .iter()
-            .filter(|p| matches!(p.event, Some(BranchEvent::Grazing { change: Change::Appears, .. })))
+            .filter(|p| matches!(p.event, Some(BranchEvent::Grazing { appears: true, .. })))
             .map(|p| p.value)
             .collect();
         assert!(added.len() >= 10, "{added:?}");
@@ -150,14 +152,13 @@ fn restitution_zero_by_the_flight_itself() {
     assert_eq!((settled(&at(end + 1e-4, 0.3), Side::Upper), settled(&at(end - 1e-4, 0.3), Side::Upper)).0, "1/1");
     // it lands as the force begins to press, at asin(delta): a moment earlier the mass leaves once more
     let points = branch(&at(1.3, 0.3), Side::Upper, Parameter::Gap, (-1.2, 1.2), Direction::Up);
-    let [
-        (value, BranchEvent::Grazing { change: Change::Appears, impact: 0, before, after, turns: false, phase, .. }),
-        (_, last),
-    ] = events(&points)[..]
+    let [(value, event @ BranchEvent::Grazing { appears: true, turns: false, .. }), (_, last)] = events(&points)[..]
     else {
         panic!("{:?}", events(&points))
     };
-    assert!(before == Label::new(1, 1) && after == Label::new(2, 1) && (phase - value.asin()).abs() < 1e-12);
+    let EventDetail { impact, phase, labels, .. } = event.detail().unwrap();
+    assert_eq!((impact, labels), (Some(0), (Label::new(1, 1), Some(Label::new(2, 1)))));
+    assert!((phase - value.asin()).abs() < 1e-12);
     let landing = |gap: f64| {
         let (beta, f) = (1.0 / 1.3, 1.0 / (1.0 - 1.0 / 1.69));
         let release = PI - gap.asin();
@@ -178,10 +179,12 @@ fn a_landing_without_speed() {
     let at = |gap: f64| Oscillator::from_inverse_beta(2.5, gap, 0.5).unwrap();
     let points = branch(&at(0.25), Side::Upper, Parameter::Gap, (-1.2, 1.2), Direction::Up);
     let found = events(&points);
-    let [(value, BranchEvent::SoftLanding { impact: 0, phase, .. }), (_, BranchEvent::EndOfRest { .. })] = found[..]
+    let [(value, BranchEvent::SoftLanding { detail: Some(detail), .. }), (_, BranchEvent::EndOfRest { .. })] =
+        found[..]
     else {
         panic!("{found:?}")
     };
+    let EventDetail { impact: Some(0), phase, .. } = detail else { panic!("{detail:?}") };
     let (beta, f) = (0.4, 1.0 / (1.0 - 0.16));
     // velocity at the force's lowest, of the flight from the release
     let level = |gap: f64| {
@@ -207,22 +210,22 @@ fn impacts_on_the_way_accumulate() {
         |second: f64| Oscillator::from_inverse_beta(2.5, 0.25, 0.5).unwrap().with_second_stop(second, 0.5).unwrap();
     let range = (-0.1, 2.0);
     let near = branch(&at(0.25), Side::Upper, Parameter::SecondGap, range, Direction::Up);
-    let [(end, BranchEvent::EndOfRest { side: Side::Lower, .. })] = events(&near)[..] else {
-        panic!("{:?}", events(&near))
-    };
+    let [(end, BranchEvent::EndOfRest { stop: 1, .. })] = events(&near)[..] else { panic!("{:?}", events(&near)) };
     let far = branch(&at(0.6), Side::Upper, Parameter::SecondGap, range, Direction::Down);
     let found = events(&far);
-    let (limit, BranchEvent::Chatter { side: Side::Lower, before, .. }) = *found.last().unwrap() else {
+    let (limit, BranchEvent::Chatter { stop: 1, detail: Some(detail) }) = *found.last().unwrap() else {
         panic!("{found:?}")
     };
+    let before = detail.labels.0;
     assert!((limit - end).abs() < 1e-12 && before.impacts == Count::Infinite, "{limit} {end}");
     // each graze: one impact more on the second stop, and the same motions elsewhere
     let grazes = &found[..found.len() - 1];
     assert!(grazes.len() >= 8);
     for &(value, event) in grazes {
-        let BranchEvent::Grazing { change: Change::Appears, impact, side: Side::Lower, phase, .. } = event else {
+        let BranchEvent::Grazing { stop: 1, appears: true, detail: Some(detail), .. } = event else {
             panic!("{event:?}")
         };
+        let (impact, phase) = (detail.impact.unwrap(), detail.phase);
         let count = |second: f64| {
             let cycle = from_release(&at(second), Side::Upper, DEFAULT_EVENTS).unwrap();
             let lower = cycle.points.iter().filter(|p| p.state.side == Side::Lower).count();
@@ -257,14 +260,16 @@ fn two_stops_alike() {
     ] {
         let range = if vary == Parameter::Damping { (0.0, 2.0) } else { (0.3, 12.0) };
         for point in branch(&at(4.0), Side::Upper, vary, range, direction) {
-            let Some(BranchEvent::Grazing { change, impact, side, phase, also: Some(also), .. }) = point.event else {
+            let Some(BranchEvent::Grazing { stop, also: Some(also), appears, detail: Some(detail), .. }) = point.event
+            else {
                 assert!(!matches!(point.event, Some(BranchEvent::Grazing { .. })), "{:?}", point.event);
                 continue;
             };
-            assert!(also.side != side && ((also.phase - phase).abs() - PI).abs() < 1e-9);
-            let (one, other) = (point.cycle.points[impact].state, point.cycle.points[also.impact].state);
-            if change == Change::Disappears {
-                assert_eq!((one.side, other.side), (side, also.side));
+            let (impact, phase) = detail.also.unwrap();
+            assert!(also != stop && ((phase - detail.phase).abs() - PI).abs() < 1e-9);
+            let [one, other] = [detail.impact, impact].map(|impact| point.cycle.points[impact.unwrap()].state);
+            if !appears {
+                assert_eq!((one.side.place(), other.side.place()), (stop, also));
                 assert!(one.velocity < 1e-4 && other.velocity < 1e-4);
             }
             if vary == Parameter::InverseBeta {

@@ -58,9 +58,7 @@ fn the_same_events() {
         for ((want, at), (event, value)) in expected.iter().zip(&events) {
             assert_eq!(want.name(), event.name());
             assert!((at - value).abs() < 1e-9, "{} {at} {value}", want.name());
-            if let (BranchEvent::Grazing { turns, .. }, machine::BranchEvent::Grazing { turns: found, .. }) =
-                (want, event)
-            {
+            if let (BranchEvent::Grazing { turns, .. }, BranchEvent::Grazing { turns: found, .. }) = (want, event) {
                 assert_eq!(turns, found);
             }
         }
@@ -160,7 +158,7 @@ fn doubled_beside_a_flip() {
     let range = 1.0..=3.0;
     let mut branch =
         machine::Branch::new((&family, gap), &cycle, &range, Direction::Up, BranchOptions::default()).unwrap();
-    let flip = branch.find(|point| point.event == Some(machine::BranchEvent::Flip)).unwrap();
+    let flip = branch.find(|point| point.event == Some(BranchEvent::Flip)).unwrap();
     let (value, doubled) = flip.leaving(&family, 0.5).pop().unwrap();
     assert_eq!(doubled.label.to_string(), "2/2");
     assert!(doubled.stable() && value > flip.value && doubled.residual < 1e-11);
@@ -169,7 +167,7 @@ fn doubled_beside_a_flip() {
     let back =
         machine::Branch::new((&family, value), &doubled, &range, Direction::Down, BranchOptions::default()).unwrap();
     let end = back.last().unwrap();
-    assert_eq!(end.event, Some(machine::BranchEvent::Halving));
+    assert_eq!(end.event, Some(BranchEvent::Halving));
     assert!((end.value - flip.value).abs() < 1e-7, "{} {}", end.value, flip.value);
 }
 
@@ -191,7 +189,7 @@ fn both_cycles_beside_a_branch_point() {
     let cycle = cycles.iter().find(|cycle| cycle.stable()).unwrap();
     let (family, beta) = Family::of_path(&machine, "frequency").unwrap();
     let mut branch = machine::Branch::new((&family, beta), cycle, &range, Direction::Down, options).unwrap();
-    let point = branch.find(|point| point.event == Some(machine::BranchEvent::BranchPoint)).unwrap();
+    let point = branch.find(|point| point.event == Some(BranchEvent::BranchPoint)).unwrap();
     assert!((point.value - expected.value).abs() < 1e-9, "{} {}", point.value, expected.value);
     let leaving = point.leaving(&family, 0.125);
     let [one, other] = leaving.as_slice() else { panic!("{} cycles", leaving.len()) };
@@ -235,7 +233,7 @@ fn torus_bifurcations() {
                 .unwrap();
         let points: Vec<_> = branch.collect();
         for (k, point) in points.iter().enumerate() {
-            if point.event != Some(machine::BranchEvent::Torus) {
+            if point.event != Some(BranchEvent::Torus) {
                 continue;
             }
             found += 1;

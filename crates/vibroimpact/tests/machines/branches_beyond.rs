@@ -2,8 +2,8 @@
 
 use crate::curves::hammer;
 use vibroimpact::continuation::{
-    BranchOptions, Direction,
-    machine::{Branch, BranchEvent, Family, SolutionPoint},
+    BranchEvent, BranchOptions, Direction,
+    machine::{Branch, Family, SolutionPoint},
 };
 use vibroimpact::events::Start;
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
@@ -135,9 +135,9 @@ fn preloaded_chain() -> Machine {
 /// There the multiplier is without limit, and the number turns back.
 #[test]
 fn f42k_preloaded_contacts_that_graze() {
-    let grazing = |appears| BranchEvent::Grazing { stop: 0, also: None, appears, turns: true };
+    let grazing = |appears| BranchEvent::Grazing { stop: 0, also: None, appears, turns: true, detail: None };
     let (fold, flip, end) = (BranchEvent::Fold, BranchEvent::Flip, BranchEvent::EndOfRange);
-    let lost = BranchEvent::LossOfContact { stop: 0 };
+    let lost = BranchEvent::LossOfContact { stop: 0, detail: None };
     let (mass, chain) = (preloaded_mass(), preloaded_chain());
     let mut compared = 0;
     for (machine, path, range, direction, want) in [
@@ -233,7 +233,7 @@ fn f42n_a_closed_stop_that_opens_for_no_time() {
         let range = (f64::min(from, to), f64::max(from, to));
         let points = traced((&machine, "frequency"), &cycle, range, direction);
         let events = events(&points);
-        let grazing = BranchEvent::Grazing { stop: 0, also: None, appears, turns: false };
+        let grazing = BranchEvent::Grazing { stop: 0, also: None, appears, turns: false, detail: None };
         assert!(
             matches!(events.as_slice(), [(event, _), (BranchEvent::EndOfRange, _)] if *event == grazing),
             "{events:?}"
@@ -379,8 +379,8 @@ fn f42z_bodies_beside_each_other_have_the_branch_of_one() {
     for ((event, at), (other, beside)) in one.into_iter().zip(two) {
         // of two balls both stops are named
         let (alone, also) = match other {
-            BranchEvent::Grazing { stop, also, appears, turns } => {
-                (BranchEvent::Grazing { stop, also: None, appears, turns }, also)
+            BranchEvent::Grazing { stop, also, appears, turns, detail } => {
+                (BranchEvent::Grazing { stop, also: None, appears, turns, detail }, also)
             }
             other => (other, None),
         };
@@ -431,7 +431,7 @@ fn f42za_a_contact_that_grazes_where_a_joint_turns_back() {
     };
     let (down, label) = along(1, 0.64, Direction::Down);
     let expected = [
-        BranchEvent::Grazing { stop: 0, also: None, appears: true, turns: true },
+        BranchEvent::Grazing { stop: 0, also: None, appears: true, turns: true, detail: None },
         BranchEvent::Corner { first: 0, second: 0 },
         BranchEvent::Fold,
     ];

@@ -5,8 +5,8 @@ use crate::limit_cycles::{on_belt, pair};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use vibroimpact::continuation::{
-    BranchOptions, Direction,
-    machine::{Branch, BranchEvent, Family, SolutionPoint},
+    BranchEvent, BranchOptions, Direction,
+    machine::{Branch, Family, SolutionPoint},
 };
 use vibroimpact::events::{Limits, Motion, Samples, Start};
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};

@@ -2,8 +2,8 @@
 
 use core::f64::consts::PI;
 use vibroimpact::continuation::{
-    BranchOptions, Direction,
-    machine::{Branch, BranchEvent, Family},
+    BranchEvent, BranchOptions, Direction,
+    machine::{Branch, Family},
 };
 use vibroimpact::events::{Event, EventKind, Limits, Motion, Start};
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, SpringDamper, StopLaw};

@@ -237,7 +237,7 @@ fn loss_of_contact_in_closed_form() {
         let found = cycle(machine, &events::Start::default());
         let (family, value) = Family::of_path(machine, "frequency").unwrap();
         let all = events((&family, value), &found, 0.35..=1.7, Direction::Up);
-        let loss = |point: &&SolutionPoint| matches!(point.event, Some(machine::BranchEvent::LossOfContact { .. }));
+        let loss = |point: &&SolutionPoint| matches!(point.event, Some(BranchEvent::LossOfContact { .. }));
         let event = all.iter().find(loss).unwrap();
         let paths = ("stop.stop.gap", "frequency");
         let plane = Plane::of_paths(machine, paths, (0.2..=2.0, 0.3..=1.8)).unwrap();
@@ -260,7 +260,7 @@ fn torus_bifurcations() {
     let found = cycle(&machine, &events::Start::default());
     let (family, value) = Family::of_path(&machine, "frequency").unwrap();
     let all = events((&family, value), &found, 0.35..=1.8, Direction::Up);
-    let event = all.iter().find(|point| point.event == Some(machine::BranchEvent::Torus)).unwrap();
+    let event = all.iter().find(|point| point.event == Some(BranchEvent::Torus)).unwrap();
     let gap = machine.number("stop.stop.gap").unwrap();
     let ranges = (gap - 0.01..=gap + 0.01, 0.35..=1.8);
     let plane = Plane::of_paths(&machine, ("stop.stop.gap", "frequency"), ranges).unwrap();
@@ -276,7 +276,7 @@ fn torus_bifurcations() {
         let (family, value) = Family::of_path(&there, "frequency").unwrap();
         let torus = events((&family, value), &found, 0.35..=1.8, Direction::Up)
             .into_iter()
-            .filter(|point| point.event == Some(machine::BranchEvent::Torus));
+            .filter(|point| point.event == Some(BranchEvent::Torus));
         let nearest = torus.map(|point| (point.value - end.values.1).abs()).fold(f64::INFINITY, f64::min);
         assert!(nearest < 1e-9, "{:?} {nearest}", end.values);
     }
@@ -306,7 +306,7 @@ fn corners() {
     let found = cycle(&machine, &events::Start::default());
     let (family, value) = Family::of_path(&machine, "stop.one.gap").unwrap();
     let all = events((&family, value), &found, 0.3..=0.6, Direction::Up);
-    let event = all.iter().find(|point| matches!(point.event, Some(machine::BranchEvent::Corner { .. }))).unwrap();
+    let event = all.iter().find(|point| matches!(point.event, Some(BranchEvent::Corner { .. }))).unwrap();
     assert!((event.value - 0.4).abs() < 1e-9, "{all:?}");
     let plane = Plane::of_paths(&machine, ("stop.one.gap", "stop.two.gap"), (0.1..=0.8, 0.1..=0.8)).unwrap();
     let points = whole(machine::Curve::through(&plane, (event.value, 0.4), event, OPTIONS).unwrap());
@@ -360,7 +360,7 @@ fn the_number_of_points() {
     let options = BranchOptions { points: 5, ..BranchOptions::default() };
     let branch = machine::Branch::new((&family, 1.2), &begin, &(0.8..=1.2), Direction::Down, options).unwrap();
     let points: Vec<SolutionPoint> = branch.collect();
-    assert_eq!((points.len(), points[4].event), (5, Some(machine::BranchEvent::StepLimit)));
+    assert_eq!((points.len(), points[4].event), (5, Some(BranchEvent::StepLimit)));
     let all = events((&family, 1.2), &begin, 1.0..=1.2, Direction::Down);
     let plane = Plane::new(hammer, (0.7..=1.4, 0.3..=0.7));
     let limited = CurveOptions { points: 7, ..OPTIONS };

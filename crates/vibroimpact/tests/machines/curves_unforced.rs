@@ -3,8 +3,8 @@
 use crate::branches_unforced::branch;
 use crate::limit_cycles::pair;
 use vibroimpact::continuation::{
-    CurveOptions, Direction,
-    machine::{BranchEvent, Curve, CurvePoint, Plane, SolutionPoint},
+    BranchEvent, CurveOptions, Direction,
+    machine::{Curve, CurvePoint, Plane, SolutionPoint},
 };
 use vibroimpact::machine::{Machine, MachineParts};
 
@@ -40,7 +40,10 @@ fn grazing_in_closed_form() {
     let reach = |belt: f64| sliding + (limit - sliding).hypot(belt);
     let (event, points) =
         curve(&machine, (("stop.stop.gap", 0.2, 1.5), Direction::Down), ("friction.belt.belt", 0.1, 0.9), "grazing");
-    assert_eq!(event.event, Some(BranchEvent::Grazing { stop: 0, also: None, appears: true, turns: false }));
+    assert_eq!(
+        event.event,
+        Some(BranchEvent::Grazing { stop: 0, also: None, appears: true, turns: false, detail: None })
+    );
     assert!((event.value - reach(belt)).abs() < 1e-12, "{} {}", event.value, reach(belt));
     assert!(points.len() > 20);
     for point in &points {

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 use vibroimpact::chaos::machine_exponents_while;
 use vibroimpact::continuation::{
-    BranchOptions, Direction,
-    machine::{Branch, BranchEvent, Family},
+    BranchEvent, BranchOptions, Direction,
+    machine::{Branch, Family},
 };
 use vibroimpact::events::{Limits, Motion, Samples, Start};
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};

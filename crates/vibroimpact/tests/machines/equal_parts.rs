@@ -2,7 +2,7 @@
 //! of several.
 
 use crate::branches_beyond::{events, settled, traced};
-use vibroimpact::continuation::{Direction, machine::BranchEvent};
+use vibroimpact::continuation::{BranchEvent, Direction};
 use vibroimpact::events::{EventKind, Start};
 use vibroimpact::machine::{ImpactLaw, Machine, MachineParts};
 use vibroimpact::orbit::{Label, Stability, find_machine_while, machine::Cycle};
@@ -143,7 +143,7 @@ fn stops_at_one_place_and_equal_parts_have_the_branch_of_one() {
     let names = |found: &[(BranchEvent, f64)]| found.iter().map(|(event, _)| event.name()).collect::<Vec<_>>();
     let one = events_of(&hammers(1, 1));
     assert_eq!(names(&one), ["grazing", "fold", "grazing", "fold", "flip", "end of range"]);
-    assert!(matches!(one[0].0, BranchEvent::Grazing { stop: 0, also: None, appears: true, turns: true }));
+    assert!(matches!(one[0].0, BranchEvent::Grazing { stop: 0, also: None, appears: true, turns: true, .. }));
     for (machine, also) in [(hammers(1, 2), None), (hammers(2, 1), Some(1))] {
         let found = events_of(&machine);
         assert_eq!(names(&found), names(&one));
@@ -230,7 +230,10 @@ fn impacts_of_equal_parts_are_lost_together() {
     let one = end(1);
     assert!(matches!(one.0, BranchEvent::Grazing { stop: 0, appears: false, .. }));
     for (event, at) in [end(2), end(3)] {
-        assert!(matches!(event, BranchEvent::LossOfContact { stop: 0 }) && (at - one.1).abs() < 1e-7, "{event:?} {at}");
+        assert!(
+            matches!(event, BranchEvent::LossOfContact { stop: 0, .. }) && (at - one.1).abs() < 1e-7,
+            "{event:?} {at}"
+        );
     }
 }
 

@@ -4,8 +4,8 @@
 use crate::curves::hammer;
 use vibroimpact::Label;
 use vibroimpact::continuation::{
-    BranchOptions, Direction, Region, RegionKind, RegionOptions,
-    machine::{Branch, BranchEvent, Family, Plane},
+    BranchEvent, BranchOptions, Direction, Region, RegionKind, RegionOptions,
+    machine::{Branch, Family, Plane},
 };
 use vibroimpact::orbit::{find_machine_while, machine::Cycle};
 use vibroimpact::verdict::{SettleOptions, Verdict, scattered_machine_starts, settle_machine};

@@ -2,8 +2,8 @@
 
 use core::f64::consts::{FRAC_PI_2, PI};
 use vibroimpact::continuation::{
-    BranchOptions, Direction,
-    machine::{Branch, BranchEvent, Family},
+    BranchEvent, BranchOptions, Direction,
+    machine::{Branch, Family},
 };
 use vibroimpact::events::Start;
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};

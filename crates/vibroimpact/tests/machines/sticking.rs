@@ -3,8 +3,8 @@
 use crate::closed_forms::ball;
 use std::f64::consts::PI;
 use vibroimpact::continuation::{
-    BranchError, BranchOptions, CurveEvent, CurveKind, CurveOptions, Direction,
-    machine::{Branch, BranchEvent, Curve, CurvePoint, Family, Plane, SolutionPoint},
+    BranchError, BranchEvent, BranchOptions, CurveEvent, CurveKind, CurveOptions, Direction,
+    machine::{Branch, Curve, CurvePoint, Family, Plane, SolutionPoint},
 };
 use vibroimpact::events::{EventKind, Limits, Motion, Start};
 use vibroimpact::machine::{Machine, MachineParts};

@@ -101,7 +101,7 @@ fn a_halving_is_the_flip_of_the_half() {
     let branch = BranchOptions::default();
     let found = [Direction::Up, Direction::Down].into_iter().find_map(|direction| {
         let points = machine::Branch::unreduced((&family, value), &cycle, &(1.6..=2.2), direction, branch).unwrap();
-        points.last().filter(|point| point.event == Some(machine::BranchEvent::Halving))
+        points.last().filter(|point| point.event == Some(BranchEvent::Halving))
     });
     let halving = found.unwrap();
     // the other cycle, from where it is stable
@@ -138,15 +138,15 @@ fn a_chatter_begins_and_ends_at_its_limit() {
         let Verdict::Periodic(cycle) = settled.verdict else { panic!("{}", settled.verdict.label()) };
         let (family, value) = Family::of_path(&machine, "stop.upper.gap").unwrap();
         let branch = machine::Branch::unreduced((&family, value), &cycle, &(0.95..=1.0), direction, options).unwrap();
-        let events: Vec<(machine::BranchEvent, f64)> =
+        let events: Vec<(BranchEvent, f64)> =
             branch.filter_map(|point| point.event.map(|event| (event, point.value))).collect();
-        let limit = |event: &(machine::BranchEvent, f64)| matches!(event.0, machine::BranchEvent::Sticking { .. });
+        let limit = |event: &(BranchEvent, f64)| matches!(event.0, BranchEvent::Sticking { .. });
         let place = events.iter().position(limit).unwrap();
-        assert_eq!(events[place].0, machine::BranchEvent::Sticking { stop: 0, begins });
+        assert_eq!(events[place].0, BranchEvent::Sticking { stop: 0, begins });
         assert!((events[place].1 - chatter.value).abs() < close, "{} {}", events[place].1, chatter.value);
         // on its side with the chatter there is only the end of the range
         let inside = if begins { &events[place + 1..] } else { &events[..place] };
-        assert!(inside.iter().all(|event| event.0 == machine::BranchEvent::EndOfRange), "{inside:?}");
+        assert!(inside.iter().all(|event| event.0 == BranchEvent::EndOfRange), "{inside:?}");
         assert_eq!(inside.len(), usize::from(begins));
     }
 }
@@ -166,7 +166,7 @@ fn a_curve_of_complete_chatters() {
     let options = BranchOptions::default();
     let mut branch =
         machine::Branch::unreduced((&family, value), &cycle, &(0.95..=1.0), Direction::Down, options).unwrap();
-    let limit = |point: &SolutionPoint| matches!(point.event, Some(machine::BranchEvent::Sticking { .. }));
+    let limit = |point: &SolutionPoint| matches!(point.event, Some(BranchEvent::Sticking { .. }));
     let point = branch.find(limit).unwrap();
     let plane = Plane::new(make, (0.5..=1.5, 0.05..=0.9));
     let options = CurveOptions { longest: 0.1, points: 400 };

@@ -135,9 +135,7 @@ fn curves_to_the_last_digit() {
         let mut branch = branch.take_while(|point| point.cycle.rests.is_empty());
         let Some(event) = branch.find(|point| is(point.event)) else { continue };
         let own = continuation::machine::Branch::new(at, own.last().unwrap(), &ranges.0, way, options).unwrap();
-        let is = |event| {
-            matches!(event, Some(continuation::machine::BranchEvent::Fold | continuation::machine::BranchEvent::Flip))
-        };
+        let is = |event| matches!(event, Some(BranchEvent::Fold | BranchEvent::Flip));
         let Some(own) = own.into_iter().find(|point| is(point.event)) else { continue };
         assert_eq!(own.value, event.value, "{}", system.text);
         let plane = Plane::of_paths(&machine, ("stop.upper.gap", "frequency"), ranges.clone()).unwrap();

@@ -124,9 +124,10 @@ pub(crate) fn events(branches: &[Vec<SolutionPoint>]) -> Vec<Event> {
         let (kind, orbits) = match point.event {
             Some(BranchEvent::Flip) => (Kind::Flip, vec![Guess::exactly(&point.cycle)]),
             Some(BranchEvent::LossOfContact { .. }) => (Kind::LossOfContact, vec![Guess::exactly(&point.cycle)]),
-            Some(BranchEvent::Grazing { after, .. }) => {
+            Some(event @ BranchEvent::Grazing { .. }) => {
                 // none if the orbit would have too many impacts
-                let after = next.filter(|p| p.cycle.label == after);
+                let after = event.detail().and_then(|detail| detail.labels.1);
+                let after = next.filter(|p| Some(p.cycle.label) == after);
                 (Kind::Grazing, [Some(point), after].into_iter().flatten().map(|p| Guess::exactly(&p.cycle)).collect())
             }
             Some(BranchEvent::Fold) => {

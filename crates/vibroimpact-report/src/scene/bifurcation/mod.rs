@@ -10,7 +10,7 @@ pub use oscillator::{bifurcation, labels};
 
 use crate::figure::branch::{Picture, figure};
 use crate::figure::tracks::Shown;
-use crate::json::branch::{BranchEventObject, BranchObject, Event};
+use crate::json::branch::{BranchEventObject, BranchObject, EventOf};
 use crate::table::{Table, bifurcation as bifurcation_table};
 use crate::{AnswerError, ReportError, ShownValue, Told, Units};
 use std::collections::BTreeMap;
@@ -96,12 +96,12 @@ impl<D: Told> BifurcationDiagram<D> {
         let branches = self.objects();
         let all = branches.iter().flat_map(|branch| branch.events.iter().map(move |event| (branch, event)));
         let happens = |(branch, event): &(&BranchObject<'_>, &BranchEventObject<'_>)| {
-            branch.points[event.point].admissible && !event.event.is_end_of_search()
+            branch.points[event.point].admissible && !event.event.ends_search()
         };
         let events = all.filter(happens).map(|(branch, event)| BifurcationEvent {
             label: branch.points[event.point].label.clone(),
             kind: event.kind,
-            value: if let Event::Oscillator(point, _) = event.event { point.value } else { event.parameter },
+            value: if let EventOf::Oscillator(point) = event.of { point.value } else { event.parameter },
         });
         let (from, to) = self.behind.plan.over.ends();
         distinct(events, NEAR * (to - from).abs())

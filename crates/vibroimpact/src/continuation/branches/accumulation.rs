@@ -6,7 +6,8 @@
 //! the other side it does not.
 
 use super::impact_branch::ImpactBranch;
-use super::point::{BranchEvent, Change, SolutionPoint};
+use super::point::SolutionPoint;
+use crate::continuation::event::{BranchEvent, EventDetail};
 use crate::math::root;
 use crate::orbit::{DEFAULT_EVENTS, Excursion, cycle_distance};
 use crate::system::Side;
@@ -17,7 +18,7 @@ impl ImpactBranch {
     /// chatter.
     pub(crate) fn accumulation(&self) -> Option<SolutionPoint> {
         let added = |(value, event): &(f64, BranchEvent)| match event {
-            BranchEvent::Grazing { change: Change::Appears, side, .. } => Some((*value, *side)),
+            BranchEvent::Grazing { stop, appears: true, .. } => Some((*value, Side::at(*stop))),
             _ => None,
         };
         let added: Option<Vec<(f64, Side)>> = self.path.grazed.iter().rev().take(LEAST).map(added).collect();
@@ -54,7 +55,8 @@ impl ImpactBranch {
             return None;
         }
         let before = Label::new(u32::try_from(ring.len()).unwrap_or(u32::MAX), ring.periods);
-        let event = BranchEvent::Chatter { side: rest.side, phase: rest.release, before };
+        let detail = EventDetail { impact: None, phase: rest.release, also: None, labels: (before, Some(cycle.label)) };
+        let event = BranchEvent::Chatter { stop: rest.side.place(), detail: Some(detail) };
         Some(SolutionPoint { value: inside, cycle, physical: true, event: Some(event) })
     }
 }

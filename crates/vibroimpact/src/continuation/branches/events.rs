@@ -5,11 +5,11 @@
 //! from points beside it.
 
 use super::impact_branch::ImpactBranch;
-use super::point::BranchEvent;
 use super::problem::{BranchSolution, RESOLUTION};
 use super::switch::halved;
 use crate::continuation::equations::cycle_equations::CycleEquations;
 use crate::continuation::equations::test_functions::{Place, TestFunction};
+use crate::continuation::event::BranchEvent;
 use crate::continuation::trace::interpolate;
 use crate::continuation::trace::tracer::{Crossing, Step, last};
 use crate::math::sort_by;

@@ -5,10 +5,11 @@
 //! impact more or less.
 
 use super::options::{BranchError, BranchOptions, Direction, scale};
-use super::point::{BranchEvent, SolutionPoint};
+use super::point::SolutionPoint;
 use super::problem::{BranchProblem, BranchSolution, BranchTracer};
 use crate::continuation::equations::cycle_equations::CycleEquations;
 use crate::continuation::equations::test_functions::TestFunction;
+use crate::continuation::event::BranchEvent;
 use crate::continuation::trace::driver::{Driver, Path, PathEvent};
 use crate::continuation::trace::equations::{tangent, unit};
 use crate::continuation::trace::tracer::{Step, Tracer, last};

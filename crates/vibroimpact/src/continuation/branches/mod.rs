@@ -3,7 +3,7 @@
 //! | idea | file |
 //! |---|---|
 //! | the branch | [`Branch`], [`BranchOptions`] |
-//! | a point of a branch, and its event | [`SolutionPoint`], [`BranchEvent`] |
+//! | a point of a branch | [`SolutionPoint`] |
 //! | branches by the equations of the impacts: the problem of the tracer, the steps, their events | `problem`, `impact_branch`, `events` |
 //! | a grazing event, and the cycle beyond it | `touch`, `graze` |
 //! | the complete chatter at the end of a branch on which impacts appear one after another | `accumulation` |
@@ -27,5 +27,5 @@ mod touch;
 pub use branch::Branch;
 pub(crate) use options::scale;
 pub use options::{BranchError, BranchOptions, Direction};
-pub use point::{BranchEvent, Change, SolutionPoint, Touch};
+pub use point::SolutionPoint;
 pub(crate) use problem::{COARSE, RULES};

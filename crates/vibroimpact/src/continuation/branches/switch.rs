@@ -3,8 +3,9 @@
 use super::branch::Branch;
 use super::impact_branch::ImpactBranch;
 use super::options::{BranchError, BranchOptions, scale};
-use super::point::{BranchEvent, SolutionPoint};
+use super::point::SolutionPoint;
 use crate::continuation::equations::cycle_equations::CycleEquations;
+use crate::continuation::event::BranchEvent;
 use crate::continuation::trace::equations::Equations;
 use crate::continuation::trace::secant;
 use crate::orbit::{Block, Floquet, Ring, blocks, solve};

@@ -3,9 +3,9 @@
 use super::free::{arriving, leaving};
 use super::graze::{Beyond, beyond};
 use super::impact_branch::ImpactBranch;
-use super::point::{BranchEvent, Change, Touch};
 use super::problem::BranchSolution;
 use crate::continuation::equations::test_functions::TestFunction;
+use crate::continuation::event::{BranchEvent, EventDetail};
 use crate::continuation::trace::tracer::{Crossing, last};
 use crate::orbit::{closest, crest};
 use crate::system::{Side, phase};
@@ -41,28 +41,30 @@ impl ImpactBranch {
             return self.finish(BranchEvent::NoConvergence);
         };
         let before = Label::new(u32::try_from(ring.len()).unwrap_or(u32::MAX), ring.periods);
-        let (change, k, side) = match (touches.first(), gone.first(), rooms.first()) {
-            (Some(&(k, side)), ..) => (Change::Appears, k, side),
-            (None, Some(&k), _) => (Change::Disappears, k, ring.side(k)),
-            (None, None, Some(&side)) => (Change::Appears, 0, side),
+        let (appears, k, side) = match (touches.first(), gone.first(), rooms.first()) {
+            (Some(&(k, side)), ..) => (true, k, side),
+            (None, Some(&k), _) => (false, k, ring.side(k)),
+            (None, None, Some(&side)) => (true, 0, side),
             (None, None, None) => return self.finish(BranchEvent::NoConvergence),
         };
-        let phase_of = |k: usize, side: Side| match change {
-            Change::Appears if ring.len() == 0 => crest(&osc, side),
-            Change::Appears => {
+        let phase_of = |k: usize, side: Side| match appears {
+            true if ring.len() == 0 => crest(&osc, side),
+            true => {
                 let time = closest(&osc, &ring, k, side).map_or(0.0, |closest| closest.time);
                 phase::advance(phase::wrap(ring.theta(k)), osc.beta(), time)
             }
-            Change::Disappears => phase::wrap(ring.theta(k)),
+            false => phase::wrap(ring.theta(k)),
         };
-        let phase = phase_of(k, side);
+        // a cycle without impacts has no impact numbers
+        let place_of = |k: usize, side: Side| ((ring.len() > 0).then(|| self.listed(at, k)), phase_of(k, side));
+        let (impact, phase) = place_of(k, side);
         let second = match (touches.get(1), gone.get(1), rooms.get(1)) {
             (Some(&second), ..) => Some(second),
             (None, Some(&k), _) => Some((k, ring.side(k))),
             (None, None, Some(&side)) => Some((0, side)),
             (None, None, None) => None,
         };
-        let also = second.map(|(k, side)| Touch { impact: self.listed(at, k), side, phase: phase_of(k, side) });
+        let also = second.map(|(k, side)| place_of(k, side));
         let value = last(&at.w);
         let next = if ring.len() == 0 {
             arriving(self.cycles(), &osc, value, &rooms)
@@ -70,7 +72,8 @@ impl ImpactBranch {
             // where the motion without impacts just reaches the stop, all impacts of a longer cycle disappear together
             let next = leaving(self.cycles(), &osc, value, side);
             if next.is_none() {
-                return self.end(at, BranchEvent::LossOfContact { side, phase });
+                let detail = EventDetail { impact: None, phase, also: None, labels: (before, None) };
+                return self.end(at, BranchEvent::LossOfContact { stop: side.place(), detail: Some(detail) });
             }
             next
         } else {
@@ -85,8 +88,9 @@ impl ImpactBranch {
         };
         // the parameter goes back on the branch that continues
         let turns = self.cycles().pace(&at.tangent) * equations.pace(&tangent) < 0.0;
-        let impact = self.listed(at, k);
-        let event = BranchEvent::Grazing { change, impact, side, phase, before, after, turns, also };
+        let detail = EventDetail { impact, phase, also, labels: (before, Some(after)) };
+        let (stop, other) = (side.place(), second.map(|(_, side)| side.place()));
+        let event = BranchEvent::Grazing { stop, also: other, appears, turns, detail: Some(detail) };
         let again = |(v, e): &(f64, BranchEvent)| (v - value).abs() < AGAIN * (1.0 + value.abs()) && alike(e, &event);
         if self.path.grazed.iter().any(again) {
             return self.end(at, BranchEvent::Closed);
@@ -109,9 +113,12 @@ fn alike(a: &BranchEvent, b: &BranchEvent) -> bool {
     use BranchEvent::Grazing;
     match (a, b) {
         (
-            Grazing { change, side, phase, before, after, .. },
-            Grazing { change: c, side: s, phase: p, before: b, after: a, .. },
-        ) => (change, side, before, after) == (c, s, b, a) && phase::difference(*phase, *p).abs() < 1e-6,
+            Grazing { stop, appears, detail: Some(one), .. },
+            Grazing { stop: other_stop, appears: other_appears, detail: Some(other), .. },
+        ) => {
+            (stop, appears, one.labels) == (other_stop, other_appears, other.labels)
+                && phase::difference(one.phase, other.phase).abs() < 1e-6
+        }
         _ => false,
     }
 }

@@ -4,9 +4,10 @@ use super::end::{Trail, reason};
 use super::event::{CurveEvent, CurveKind};
 use super::frame::{Frame, check};
 use super::point::{CurveOptions, CurvePoint};
-use crate::continuation::branches::{BranchError, BranchEvent, Change, SolutionPoint};
+use crate::continuation::branches::{BranchError, SolutionPoint};
 use crate::continuation::equations::plane_equations::{Condition, Plane};
 use crate::continuation::equations::plane_tracer::{PlaneProblem, PlaneSolution, PlaneTracer, beginning};
+use crate::continuation::event::{BranchEvent, EventDetail};
 use crate::continuation::trace::driver::{Driver, Path, PathEvent};
 use crate::continuation::trace::equations::correct;
 use crate::continuation::trace::tracer::Step;
@@ -97,13 +98,23 @@ impl Curve {
         let condition = match point.event {
             Some(BranchEvent::Fold) => Condition::PlusOne,
             Some(BranchEvent::Flip) => Condition::MinusOne,
-            Some(BranchEvent::Grazing { change: Change::Disappears, impact, .. }) => Condition::Speed(impact),
             Some(BranchEvent::LossOfContact { .. }) => Condition::Speed(0),
-            Some(BranchEvent::Grazing { change: Change::Appears, side, phase, .. }) if ring.len() == 0 => {
-                ring = Ring { sides: vec![side], unknowns: vec![phase, 0.0], periods: 1 };
+            Some(BranchEvent::Grazing {
+                stop,
+                appears: true,
+                detail: Some(EventDetail { impact: None, phase, .. }),
+                ..
+            }) => {
+                ring = Ring { sides: vec![Side::at(stop)], unknowns: vec![phase, 0.0], periods: 1 };
                 Condition::Speed(0)
             }
-            Some(BranchEvent::Grazing { change: Change::Appears, impact, side, phase, .. }) => {
+            Some(BranchEvent::Grazing { appears: false, detail, .. }) => {
+                Condition::Speed(detail.and_then(|detail| detail.impact).unwrap_or(0))
+            }
+            Some(BranchEvent::Grazing {
+                stop, detail: Some(EventDetail { impact: Some(impact), phase, .. }), ..
+            }) => {
+                let side = Side::at(stop);
                 let ahead = crate::system::phase::wrap(phase - ring.theta(impact));
                 // the grazing contact can be more than one forcing period after the impact: it is where the mass is
                 // closest to the stop

@@ -1,4 +1,4 @@
-//! Branches and curves of machines. The tracer, the driver, the options, the errors and the events of curves are those of
+//! Branches and curves of machines. The tracer, the driver, the options, the errors and the events are those of
 //! oscillators.
 //!
 //! | idea | folder |
@@ -16,7 +16,7 @@ mod reduced_curve;
 mod reduced_plane;
 mod region;
 
-pub use branches::{BranchEvent, Family, SolutionPoint};
+pub use branches::{Family, SolutionPoint};
 pub use curves::{CurvePoint, Plane};
 pub use reduced_branch::Branch;
 pub use reduced_curve::Curve;

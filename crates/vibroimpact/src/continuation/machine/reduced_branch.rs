@@ -4,13 +4,14 @@
 //! Where it ends and the machine goes on, as where a rest begins, or where the machine ceases to be an oscillator, the machine's
 //! own equations continue from the last cycle.
 
-use super::branches::{BranchEvent, Family, SolutionPoint, UnreducedBranch};
+use super::branches::{Family, SolutionPoint, UnreducedBranch};
 use crate::continuation::branches;
-use crate::continuation::branches::{BranchError, BranchOptions, Change, Direction};
+use crate::continuation::branches::{BranchError, BranchOptions, Direction};
+use crate::continuation::event::BranchEvent;
 use crate::machine::Reduction;
 use crate::orbit;
 use crate::orbit::machine::Cycle;
-use crate::system::{Oscillator, OscillatorFamily, SystemError};
+use crate::system::{Oscillator, OscillatorFamily, Side, SystemError};
 use core::ops::RangeInclusive;
 
 /// A branch: an iterator over its points, including its events. The last point has an event that
@@ -214,20 +215,23 @@ impl ReducedBranch {
 }
 
 /// The event of a branch of the machine; `None` for an end that is none of the machine's.
-fn converted(event: branches::BranchEvent, reduction: &Reduction) -> Option<BranchEvent> {
+fn converted(event: BranchEvent, reduction: &Reduction) -> Option<BranchEvent> {
+    let own = |stop: usize| reduction.stop(Side::at(stop));
     Some(match event {
-        branches::BranchEvent::Fold => BranchEvent::Fold,
-        branches::BranchEvent::BranchPoint => BranchEvent::BranchPoint,
-        branches::BranchEvent::Flip => BranchEvent::Flip,
-        branches::BranchEvent::Halving => BranchEvent::Halving,
-        branches::BranchEvent::Grazing { change, side, turns, also, .. } => {
-            let also = also.and_then(|touch| reduction.stop(touch.side));
-            BranchEvent::Grazing { stop: reduction.stop(side)?, also, appears: change == Change::Appears, turns }
+        BranchEvent::Grazing { stop, also, appears, turns, .. } => {
+            BranchEvent::Grazing { stop: own(stop)?, also: also.and_then(own), appears, turns, detail: None }
         }
-        branches::BranchEvent::LossOfContact { side, .. } => BranchEvent::LossOfContact { stop: reduction.stop(side)? },
-        branches::BranchEvent::Closed => BranchEvent::Closed,
-        branches::BranchEvent::EndOfRange => BranchEvent::EndOfRange,
-        branches::BranchEvent::StepLimit => BranchEvent::StepLimit,
-        _ => return None,
+        BranchEvent::LossOfContact { stop, .. } => BranchEvent::LossOfContact { stop: own(stop)?, detail: None },
+        // the machine goes on where its oscillator rests, or has more impacts than are followed
+        BranchEvent::Stick { .. }
+        | BranchEvent::SoftLanding { .. }
+        | BranchEvent::EndOfRest { .. }
+        | BranchEvent::RestForEver { .. }
+        | BranchEvent::Chatter { .. }
+        | BranchEvent::BecomesPhysical
+        | BranchEvent::BecomesVirtual
+        | BranchEvent::ImpactLimit
+        | BranchEvent::NoConvergence => return None,
+        event => event,
     })
 }

@@ -4,13 +4,14 @@
 //! Curves of grazing are those of the machine's own equations, along which the multipliers of the cycle without the contact have
 //! zeros of their own. Where these equations find no cycle, as of the motion without impacts, they are those of the oscillator.
 
-use super::branches::{BranchEvent, SolutionPoint};
+use super::branches::SolutionPoint;
 use super::curves::{CurvePoint, Plane, UnreducedCurve};
 use super::reduced_branch::oscillator;
 use crate::continuation::branches;
-use crate::continuation::branches::{BranchError, Change};
+use crate::continuation::branches::BranchError;
 use crate::continuation::curves;
 use crate::continuation::curves::{CurveEvent, CurveKind, CurveOptions};
+use crate::continuation::event::{BranchEvent, EventDetail};
 use crate::math::hypot;
 use crate::motion::ImpactState;
 use crate::orbit;
@@ -103,10 +104,9 @@ impl ReducedCurve {
         let reduction = plane.family.reduction(values.into())?;
         let cycle = point.cycle.to_oscillator(&reduction)?;
         let event = match point.event? {
-            BranchEvent::Fold => branches::BranchEvent::Fold,
-            BranchEvent::Flip => branches::BranchEvent::Flip,
+            event @ (BranchEvent::Fold | BranchEvent::Flip) => event,
             BranchEvent::Grazing { stop, appears: true, .. } => appearing(&osc, &cycle, reduction.side(stop)?)?,
-            BranchEvent::Grazing { stop, .. } | BranchEvent::LossOfContact { stop } => {
+            BranchEvent::Grazing { stop, .. } | BranchEvent::LossOfContact { stop, .. } => {
                 disappearing(&cycle, reduction.side(stop)?)?
             }
             _ => return None,
@@ -123,7 +123,7 @@ impl ReducedCurve {
     fn converted(&self, point: &curves::CurvePoint) -> Option<CurvePoint> {
         let reduction = self.plane.family.reduction(point.values.into())?;
         // the oscillator counts the upper stop first, the machine as it is described
-        let stop = |place: usize| reduction.stop(if place == 0 { Side::Upper } else { Side::Lower }).unwrap_or(place);
+        let stop = |place: usize| reduction.stop(Side::at(place)).unwrap_or(place);
         let event = point.event.map(|event| match event {
             CurveEvent::ResonantGrazing { stop: place } => CurveEvent::ResonantGrazing { stop: stop(place) },
             CurveEvent::DegenerateGrazing { stop: place } => CurveEvent::DegenerateGrazing { stop: stop(place) },
@@ -171,29 +171,27 @@ impl ReducedCurve {
 }
 
 /// The grazing at which a flight of a cycle comes to touch a stop: that which comes closest.
-fn appearing(osc: &Oscillator, cycle: &orbit::Cycle, side: Side) -> Option<branches::BranchEvent> {
+fn appearing(osc: &Oscillator, cycle: &orbit::Cycle, side: Side) -> Option<BranchEvent> {
     let ring = Ring::of(osc, cycle)?;
     let distance = |k: &usize| closest(osc, &ring, *k, side).map_or(f64::INFINITY, |closest| closest.distance.abs());
     let impact = (0..ring.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
     let phase = crest(osc, side);
-    Some(grazing(cycle, (Change::Appears, impact.unwrap_or(0)), (side, phase)))
+    Some(grazing(cycle, (true, impact.unwrap_or(0)), (side, phase)))
 }
 
 /// The grazing at which an impact of a cycle on a stop loses its speed: that of the slowest.
-fn disappearing(cycle: &orbit::Cycle, side: Side) -> Option<branches::BranchEvent> {
+fn disappearing(cycle: &orbit::Cycle, side: Side) -> Option<BranchEvent> {
     let speed = |k: &usize| cycle.points[*k].state.velocity;
     let on_side = (0..cycle.points.len()).filter(|k| cycle.points[*k].state.side == side);
     let impact = on_side.min_by(|a, b| speed(a).total_cmp(&speed(b)))?;
-    Some(grazing(cycle, (Change::Disappears, impact), (side, cycle.points[impact].state.phase)))
+    Some(grazing(cycle, (false, impact), (side, cycle.points[impact].state.phase)))
 }
 
-fn grazing(
-    cycle: &orbit::Cycle,
-    (change, impact): (Change, usize),
-    (side, phase): (Side, f64),
-) -> branches::BranchEvent {
-    let (before, after) = (cycle.label, cycle.label);
-    branches::BranchEvent::Grazing { change, impact, side, phase, before, after, turns: false, also: None }
+fn grazing(cycle: &orbit::Cycle, (appears, impact): (bool, usize), (side, phase): (Side, f64)) -> BranchEvent {
+    // a cycle without impacts has no impact numbers
+    let impact = (!cycle.points.is_empty()).then_some(impact);
+    let detail = EventDetail { impact, phase, also: None, labels: (cycle.label, None) };
+    BranchEvent::Grazing { stop: side.place(), also: None, appears, turns: false, detail: Some(detail) }
 }
 
 /// The cycle of a grazing curve without its contact, and the contact.

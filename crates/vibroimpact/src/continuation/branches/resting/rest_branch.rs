@@ -7,8 +7,9 @@
 
 use super::super::impact_branch::place;
 use super::super::options::{BranchError, BranchOptions, Direction, scale};
-use super::super::point::{BranchEvent, Change, SolutionPoint};
+use super::super::point::SolutionPoint;
 use super::likeness::{Likeness, likeness};
+use crate::continuation::event::BranchEvent;
 use crate::continuation::trace::step_length::StepLength;
 use crate::orbit::{Cycle, DEFAULT_EVENTS, Excursion};
 use crate::system::{Oscillator, ParameterPath, Side};
@@ -128,7 +129,7 @@ impl RestBranch {
         if let (false, Some(there)) = (self.over, there) {
             (self.value, self.excursion) = (target, there);
         }
-        if !matches!(event, BranchEvent::Grazing { change: Change::Appears, .. }) {
+        if !matches!(event, BranchEvent::Grazing { appears: true, .. }) {
             return self.added.clear();
         }
         self.added.push(value);

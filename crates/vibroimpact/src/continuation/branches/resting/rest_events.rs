@@ -9,10 +9,10 @@
 //!   factor with each impact, and the time of sticking is not smooth: it is a power of the distance of the parameter,
 //!   with an exponent near 0.6. But whether the mass sticks is decided to the last digit, so bisection finds the value.
 
-use super::super::point::{BranchEvent, Change, Touch};
 use super::likeness::{Likeness, likeness, shape, stretch};
 use super::rest_branch::{FoundEvent, RestBranch};
 use crate::contact::sticking::release_phase;
+use crate::continuation::event::{BranchEvent, EventDetail};
 use crate::flight::Flight;
 use crate::math::root;
 use crate::math::{sin_cos, sort_by};
@@ -23,7 +23,7 @@ use core::f64::consts::PI;
 /// An impact that appears or disappears.
 struct Touched {
     value: f64,
-    change: Change,
+    appears: bool,
     /// The indices of the stretch and of the impact in it.
     place: (usize, usize),
     /// The time of flight up to this impact here and beyond, where there is one.
@@ -57,11 +57,11 @@ impl RestBranch {
     /// The event at which the flight towards impact `k` of stretch `s`, which differs at `to`, grazes a stop.
     fn touch(&self, (s, k): (usize, usize), to: f64, there: &Excursion) -> Option<Touched> {
         let (a, b) = (self.excursion.stretches.get(s)?, there.stretches.get(s)?);
-        let (change, struck, clear, long) = match (a.strikes.get(k), b.strikes.get(k)) {
-            (Some(x), Some(y)) if y.flown < x.flown => (Change::Appears, y, a, Some(x.flown)),
-            (Some(x), Some(y)) => (Change::Disappears, x, b, Some(y.flown)),
-            (None, Some(y)) => (Change::Appears, y, a, None),
-            (Some(x), None) => (Change::Disappears, x, b, None),
+        let (appears, struck, clear, long) = match (a.strikes.get(k), b.strikes.get(k)) {
+            (Some(x), Some(y)) if y.flown < x.flown => (true, y, a, Some(x.flown)),
+            (Some(x), Some(y)) => (false, x, b, Some(y.flown)),
+            (None, Some(y)) => (true, y, a, None),
+            (Some(x), None) => (false, x, b, None),
             (None, None) => return None,
         };
         // without a longer flight the mass sticks after the impact before, which needs restitution 0
@@ -95,7 +95,7 @@ impl RestBranch {
         let value = self.ahead(by);
         let phase = phase::wrap(near(value)?.1);
         let flown = [a, b].map(|stretch| stretch.strikes.get(k).map(|strike| strike.flown));
-        Some(Touched { value, change, place: (s, k), flown, side, phase })
+        Some(Touched { value, appears, place: (s, k), flown, side, phase })
     }
 
     /// The event of grazing contacts at the same value: one, or with two equal stops one on each.
@@ -110,24 +110,24 @@ impl RestBranch {
         let told = |touched: &Touched| {
             let (s, k) = touched.place;
             let listed = excursion.before(s) + k;
-            let impact = match touched.change {
-                Change::Disappears => listed,
-                // one that is first in the list follows the last impact of the period before
-                Change::Appears => listed.checked_sub(1).unwrap_or(cycle.points.len().saturating_sub(1)),
-            };
-            Touch { impact, side: touched.side, phase: touched.phase }
+            // one that appears and is first in the list follows the last impact of the period before
+            let last = cycle.points.len().saturating_sub(1);
+            let impact = if touched.appears { listed.checked_sub(1).unwrap_or(last) } else { listed };
+            (Some(impact), touched.phase)
         };
-        let (Touch { impact, side, phase }, change) = (told(first), first.change);
-        let also = touched.get(1).filter(|second| second.change == change).map(told);
-        let event = BranchEvent::Grazing { change, impact, side, phase, before, after, turns: false, also };
+        let (appears, (impact, phase)) = (first.appears, told(first));
+        let second = touched.get(1).filter(|second| second.appears == appears);
+        let detail = EventDetail { impact, phase, also: second.map(told), labels: (before, Some(after)) };
+        let (stop, also) = (first.side.place(), second.map(|second| second.side.place()));
+        let event = BranchEvent::Grazing { stop, also, appears, turns: false, detail: Some(detail) };
         Some(FoundEvent { value: first.value, event, cycle })
     }
 
     /// Whether these impacts are the only difference between the motions.
     fn explained(&self, touched: &[Touched], there: &Excursion) -> bool {
-        let without = |excursion: &Excursion, change: Change| {
+        let without = |excursion: &Excursion, appears: bool| {
             let mut excursion = excursion.clone();
-            for (s, k) in touched.iter().filter(|touched| touched.change == change).map(|touched| touched.place) {
+            for (s, k) in touched.iter().filter(|touched| touched.appears == appears).map(|touched| touched.place) {
                 if let Some(stretch) = excursion.stretches.get_mut(s).filter(|stretch| k < stretch.strikes.len()) {
                     let gone = stretch.strikes.remove(k);
                     if let Some(next) = stretch.strikes.get_mut(k) {
@@ -138,7 +138,7 @@ impl RestBranch {
             }
             excursion
         };
-        let (here, there) = (without(&self.excursion, Change::Disappears), without(there, Change::Appears));
+        let (here, there) = (without(&self.excursion, false), without(there, true));
         matches!(likeness(&here, &there), Likeness::Alike(_))
     }
 
@@ -214,8 +214,9 @@ impl RestBranch {
         let excursion = excursion.unwrap_or_else(|| self.excursion.clone());
         let cycle = excursion.cycle()?;
         let (before, after) = (self.excursion.cycle()?.label, there.cycle()?.label);
-        let impact = excursion.before(s) + first;
-        Some(FoundEvent { value, event: BranchEvent::SoftLanding { impact, side, phase, before, after }, cycle })
+        let impact = Some(excursion.before(s) + first);
+        let detail = EventDetail { impact, phase, also: None, labels: (before, Some(after)) };
+        Some(FoundEvent { value, event: BranchEvent::SoftLanding { stop: side.place(), detail: Some(detail) }, cycle })
     }
 
     /// The event between the current value and `to` at which the intervals of sticking change: the time of one becomes
@@ -233,20 +234,25 @@ impl RestBranch {
         for rest in excursion.rests() {
             let side = rest.span.side;
             if release_phase(&osc, side).is_none() && osc.stop(side).is_some_and(|stop| stop.gap < 0.0) {
-                return Some(FoundEvent { value: outside, event: BranchEvent::RestForEver { side }, cycle });
+                let event = BranchEvent::RestForEver { stop: side.place() };
+                return Some(FoundEvent { value: outside, event, cycle });
             }
         }
         let shrunk = |excursion: &Excursion| {
             excursion.rests().find(|rest| rest.held * osc.beta() < SHRUNK).map(|rest| rest.span)
         };
         if let Some(rest) = shrunk(&excursion) {
-            let event = BranchEvent::EndOfRest { side: rest.side, phase: rest.release };
+            let (stop, labels) = (rest.side.place(), (cycle.label, None));
+            let detail = EventDetail { impact: None, phase: rest.release, also: None, labels };
+            let event = BranchEvent::EndOfRest { stop, detail: Some(detail) };
             return Some(FoundEvent { value: inside, event, cycle });
         }
         let beyond = self.excursion_at(outside)?;
         let rest = shrunk(&beyond)?;
-        let event = BranchEvent::Chatter { side: rest.side, phase: rest.release, before: cycle.label };
-        Some(FoundEvent { value: outside, event, cycle: beyond.cycle()? })
+        let (before, cycle) = (cycle.label, beyond.cycle()?);
+        let detail = EventDetail { impact: None, phase: rest.release, also: None, labels: (before, Some(cycle.label)) };
+        let event = BranchEvent::Chatter { stop: rest.side.place(), detail: Some(detail) };
+        Some(FoundEvent { value: outside, event, cycle })
     }
 }
 

@@ -8,7 +8,7 @@ use super::equations::MachineEquations;
 use super::explained::{explained, told};
 use super::family::Family;
 use super::meeting::meeting;
-use super::point::{BranchEvent, SolutionPoint};
+use super::point::SolutionPoint;
 use super::problem::{Judged, MachineProblem, MachineSolution};
 use super::rest_for_ever::rest_for_ever;
 use super::step::{NEARBY, off_circle};
@@ -16,7 +16,8 @@ use super::struck::struck;
 use super::summed::same_in_turn;
 use super::test_functions::TestFunction;
 use crate::continuation::branches::{BranchError, BranchOptions, Direction, scale};
-use crate::continuation::trace::driver::{Driver, Path, PathEvent};
+use crate::continuation::event::BranchEvent;
+use crate::continuation::trace::driver::{Driver, Path};
 use crate::continuation::trace::tracer::{Step, Tracer, last};
 use crate::orbit::{Chatter, MachineFrame, MachineRing, machine::Cycle};
 use core::ops::RangeInclusive;
@@ -44,12 +45,6 @@ struct Passed {
     unknowns: usize,
     rises: bool,
     event: BranchEvent,
-}
-
-impl PathEvent for BranchEvent {
-    const CLOSED: Self = Self::Closed;
-    const STEP_LIMIT: Self = Self::StepLimit;
-    const NO_CONVERGENCE: Self = Self::NoConvergence;
 }
 
 impl Path for EventPath {
@@ -171,7 +166,7 @@ impl EventBranch {
     /// Reports the change of the events at `at` and goes on with the events beyond: with `next`, if that is known.
     pub(super) fn pass(&mut self, at: &MachineSolution, found: &Difference, next: Option<Tracer<MachineProblem>>) {
         if let Some(stop) = self.lost(at, found) {
-            return self.end(at, BranchEvent::LossOfContact { stop });
+            return self.end(at, BranchEvent::LossOfContact { stop, detail: None });
         }
         let of_rest = matches!(found, Difference::Rest { joint: false, .. } | Difference::Other { .. });
         if of_rest && self.rests(at) {

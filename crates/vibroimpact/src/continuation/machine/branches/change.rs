@@ -1,7 +1,7 @@
 //! How the events of a motion differ from those of a signature.
 
-use super::point::BranchEvent;
 use super::problem::Judged;
+use crate::continuation::event::BranchEvent;
 use crate::orbit::{MachineRing, Push, RingEvent};
 use crate::regime::{ContactState, GuardKind};
 
@@ -25,8 +25,10 @@ impl Difference {
     /// The event of a branch.
     pub(super) const fn event(&self, turns: bool) -> BranchEvent {
         match *self {
-            Self::Appears { stop, .. } => BranchEvent::Grazing { stop, also: None, appears: true, turns },
-            Self::Disappears { stop, .. } => BranchEvent::Grazing { stop, also: None, appears: false, turns },
+            Self::Appears { stop, .. } => BranchEvent::Grazing { stop, also: None, appears: true, turns, detail: None },
+            Self::Disappears { stop, .. } => {
+                BranchEvent::Grazing { stop, also: None, appears: false, turns, detail: None }
+            }
             Self::Corner { first, second } => BranchEvent::Corner { first, second },
             Self::Rest { place, joint: false, begins } => BranchEvent::Sticking { stop: place, begins },
             Self::Rest { place, begins, .. } => BranchEvent::Holding { joint: place, begins },

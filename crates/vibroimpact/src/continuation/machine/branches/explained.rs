@@ -4,8 +4,8 @@
 //! the cycle: where a contact opens for no time, a joint on the same coordinate turns back in the same instant. So the whole
 //! signatures of both sides are compared, each contact for itself.
 
-use super::point::BranchEvent;
 use super::summed::same_in_turn;
+use crate::continuation::event::BranchEvent;
 use crate::orbit::{Chatter, MachineRing};
 use crate::regime::{ContactState, GuardKind};
 
@@ -123,11 +123,11 @@ pub(super) fn explained(
     // where nothing differs but the number of impacts of a chatter, what was found is all that is known
     if explains || old == new && !changes {
         return Some(match event {
-            BranchEvent::Grazing { stop, appears, turns, .. } => {
+            BranchEvent::Grazing { stop, appears, turns, detail, .. } => {
                 let change = |place: usize| old[place].closings.cmp(&new[place].closings);
                 let as_well =
                     |place: &usize| *place != stop && change(*place).is_ne() && change(*place) == change(stop);
-                BranchEvent::Grazing { stop, also: (0..stops).find(as_well), appears, turns }
+                BranchEvent::Grazing { stop, also: (0..stops).find(as_well), appears, turns, detail }
             }
             event => event,
         });
@@ -155,7 +155,7 @@ pub(super) fn explained(
         }
         (None, Some(stop)) => {
             let appears = old[stop].closings < new[stop].closings;
-            BranchEvent::Grazing { stop, also: None, appears, turns }
+            BranchEvent::Grazing { stop, also: None, appears, turns, detail: None }
         }
         _ => corner(),
     })

@@ -7,7 +7,7 @@
 //! | the test functions of events | `test_functions` |
 //! | multipliers that pass the unit circle together, of which these functions tell nothing | `together` |
 //! | the problem that the tracer solves, admissible solutions | `problem` |
-//! | a point of a branch, and its events | [`SolutionPoint`], [`BranchEvent`] |
+//! | a point of a branch | [`SolutionPoint`] |
 //! | where a tracer begins | `beginning` |
 //! | how the events of a motion differ from those of a signature | `change` |
 //! | the event that explains how the cycles before and beyond differ | `explained` |
@@ -61,6 +61,6 @@ pub(crate) use equations::MachineEquations;
 pub use family::Family;
 pub(crate) use joined::join;
 pub(crate) use matched::matched;
-pub use point::{BranchEvent, SolutionPoint};
+pub use point::SolutionPoint;
 pub(crate) use problem::{CLOSED, Judged, judge, over_pairs, seen_on};
 pub(crate) use rest::{Limit, RestZero, limits, rest_zero, size, touches};

@@ -6,7 +6,8 @@
 //! Newton's method from there.
 
 use super::family::Family;
-use super::point::{BranchEvent, SolutionPoint};
+use super::point::SolutionPoint;
+use crate::continuation::event::BranchEvent;
 use crate::math::{Lu, Matrix, dot};
 use crate::orbit::{MachineFrame, MachineLap, machine::Cycle};
 

@@ -4,9 +4,9 @@
 //! change none. The number of multipliers outside the circle tells it.
 
 use super::branch::EventBranch;
-use super::point::BranchEvent;
 use super::problem::Judged;
 use super::step::{NEARBY, off_circle};
+use crate::continuation::event::BranchEvent;
 use crate::continuation::trace::tracer::Step;
 use crate::math::{Multiplier, root, sort_by};
 use crate::orbit::Stability;

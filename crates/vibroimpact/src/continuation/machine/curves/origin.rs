@@ -7,7 +7,8 @@ use super::plane::Plane;
 use super::problem::CurveProblem;
 use crate::continuation::branches::BranchError;
 use crate::continuation::curves::{CurveKind, check};
-use crate::continuation::machine::branches::{BranchEvent, CompleteChatter, MachineEquations, SolutionPoint, closest};
+use crate::continuation::event::BranchEvent;
+use crate::continuation::machine::branches::{CompleteChatter, MachineEquations, SolutionPoint, closest};
 use crate::events::{Place, standing_back};
 use crate::machine::Machine;
 use crate::math::Multiplier;
@@ -62,7 +63,7 @@ impl Origin<'_> {
             BranchEvent::Grazing { stop, appears: true, .. } => self.appearing(ring, stop),
             BranchEvent::Grazing { stop, .. } => self.disappearing(&ring, stop, NEAR * self.point.cycle.sizes.1),
             // an only closing is the one that disappears, whatever its speed beside the event
-            BranchEvent::LossOfContact { stop } => self.disappearing(&ring, stop, f64::INFINITY),
+            BranchEvent::LossOfContact { stop, .. } => self.disappearing(&ring, stop, f64::INFINITY),
             BranchEvent::Corner { first, second } => self.corner(ring, [first, second]).ok_or(BranchError::NoCycle),
             BranchEvent::Sticking { stop, .. } => self.resting(ring, stop, CurveKind::Sticking { stop }),
             BranchEvent::Holding { joint, .. } => self.resting(ring, joint, CurveKind::Holding { joint }),
