@@ -489,3 +489,59 @@ fn f42zc_holds_of_two_pairs_begin_where_those_of_one_do() {
         assert!(holding(event) == holding(other) && (at - there).abs() < 1e-8, "{event:?} {at}, {other:?} {there}");
     }
 }
+
+/// A chain of bodies with these masses, links from each to the one before (stiffness and damping), a link of the first to the
+/// ground, and a force on the last.
+fn chain(mass: &[f64], link: &[(f64, f64)], frequency: f64, (cos, sin): (f64, f64)) -> MachineParts {
+    let n = mass.len();
+    let mut parts = MachineParts::new(["a", "b", "c"].into_iter().take(n));
+    for (i, (mass, (stiffness, damping))) in mass.iter().zip(link).enumerate() {
+        parts = parts.with_mass(i, *mass);
+        for (matrix, value) in [(&mut parts.stiffness, *stiffness), (&mut parts.damping, *damping)] {
+            matrix[(i, i)] += value;
+            if i > 0 {
+                matrix[(i - 1, i - 1)] += value;
+                matrix[(i - 1, i)] -= value;
+                matrix[(i, i - 1)] -= value;
+            }
+        }
+    }
+    parts.with_frequency(frequency).with_force(n - 1, 1, cos, sin)
+}
+
+/// A stop without rebound is grazed like any other: beyond, the mass passes it, and the branch goes on to the end of its range. The
+/// slow impacts of a chatter on another stop are no grazing contacts.
+#[test]
+fn a_stop_without_rebound_is_grazed() {
+    let machine = Machine::new(
+        chain(&[0.98, 1.213, 0.56], &[(1.478, 0.135), (1.174, 0.19), (0.613, 0.218)], 0.6028, (0.404, 1.346))
+            .with_stop("plastic", &[0.0, -1.0, 1.0], -0.2, StopLaw::Rigid { restitution: 0.0 })
+            .with_stop("other", &[-1.0, 0.0, 0.0], 0.547, StopLaw::Rigid { restitution: 0.133 }),
+    )
+    .unwrap();
+    let cycle = settled(&machine, &Start::default().within_stops(&machine)).unwrap();
+    let points = traced((&machine, "stiffness.a"), &cycle, (1.72, 4.2), Direction::Down);
+    let found = events(&points);
+    let gone = BranchEvent::Grazing { stop: 0, also: None, appears: false, turns: true, detail: None };
+    assert!(found.iter().any(|(event, _)| *event == gone), "{found:?}");
+    assert_eq!(found.last().unwrap().0, BranchEvent::EndOfRange, "{found:?}");
+    assert!(agrees_with_simulation((&machine, "stiffness.a"), &points) > 4);
+}
+
+/// Towards a chatter that is complete at the release, impacts appear one after another at folds: the cycle with one impact more has
+/// the same label, and is not the way back.
+#[test]
+fn impacts_of_a_chatter_appear_at_folds() {
+    let law = StopLaw::Rigid { restitution: 0.123 };
+    let parts = chain(&[0.9324, 0.6371], &[(1.4024, 0.116), (1.0213, 0.1916)], 0.4377, (0.0499, 0.9558));
+    let machine = Machine::new(parts.with_stop("stop", &[-1.0, 1.0], 0.2195, law)).unwrap();
+    let cycle = settled(&machine, &Start::default().within_stops(&machine)).unwrap();
+    let found = events(&traced((&machine, "frequency"), &cycle, (0.276, 0.644), Direction::Down));
+    let appears = |event: &BranchEvent| matches!(event, BranchEvent::Grazing { appears: true, turns: true, .. });
+    let at: Vec<f64> = found.iter().filter(|(event, _)| appears(event)).map(|(_, at)| *at).collect();
+    assert!(at.len() >= 4, "{found:?}");
+    for three in at.windows(3) {
+        let ratio = (three[2] - three[1]) / (three[1] - three[0]);
+        assert!(ratio > 0.0 && ratio < 0.3, "{at:?}");
+    }
+}

@@ -8,7 +8,7 @@ use vibroimpact::continuation::{
     BranchEvent, BranchOptions, Direction,
     machine::{Branch, Family, SolutionPoint},
 };
-use vibroimpact::events::{Limits, Motion, Samples, Start};
+use vibroimpact::events::{EventKind, Limits, Motion, Samples, Start};
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::orbit::{find_machine_while, machine::Cycle};
 use vibroimpact::regime::ContactState;
@@ -124,9 +124,24 @@ fn simulation_agrees() {
         }
     }
     assert!(counts.0 > 50 && counts.1 > 15, "{counts:?}");
-    for name in ["fold", "flip", "torus", "grazing", "corner", "holding begins"] {
+    for name in ["fold", "flip", "torus", "grazing", "corner", "holding ends"] {
         assert!(events.contains_key(name), "{name} {events:?}");
     }
+}
+
+/// A hold that ends at an impact, or by its own limit just after: where both are at one time, events change their order.
+#[test]
+fn a_joint_that_an_impact_frees() {
+    let points = branch(&pair(0.2, 0.9, 0.5), ("stiffness.low.low", 1.2, 2.2), Direction::Down);
+    let at =
+        points.iter().position(|point| (point.value - 1.348_381_87).abs() < 1e-7 && point.event.is_some()).unwrap();
+    assert_eq!(points[at].event, Some(BranchEvent::Corner { first: 1, second: 0 }));
+    let apart = |cycle: &Cycle| {
+        let time = |kind| cycle.events.iter().find(|event| event.kind == kind).unwrap().time;
+        time(EventKind::Slip) - time(EventKind::Impact)
+    };
+    assert_eq!(apart(&points[at - 1].cycle), 0.0);
+    assert!((1e-8..1e-4).contains(&apart(&points[at + 1].cycle)), "{}", apart(&points[at + 1].cycle));
 }
 
 /// Without its closing the cycle is the one of half its period, which does not depend on the stop.

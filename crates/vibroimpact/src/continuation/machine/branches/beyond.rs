@@ -30,15 +30,15 @@ pub(super) fn through_grazing(
     options: &BranchOptions,
 ) -> Option<Tracer<MachineProblem>> {
     let (machine, ring) = tracer.problem.equations.split(&at.w)?;
-    let rebounds =
-        |stop: usize| !matches!(machine.stops()[stop].law, StopLaw::Rigid { restitution } if restitution == 0.0);
+    // without a rebound too an impact of speed zero changes nothing, unless a rest begins with it
+    let opens = |k: usize, stop: usize| !ring.events[k].after[stop].constrains();
     let (mut gone, mut new): (Vec<usize>, Vec<(usize, usize)>) = Default::default();
     for zero in zeros {
         match *zero {
-            TestFunction::Rate(k) if matches!(ring.events[k].guard, GuardKind::Gap(stop) if rebounds(stop)) => {
+            TestFunction::Rate(k) if matches!(ring.events[k].guard, GuardKind::Gap(stop) if opens(k, stop)) => {
                 gone.push(k);
             }
-            TestFunction::Clearance(leg, GuardKind::Gap(stop)) if rebounds(stop) => new.push((leg, stop)),
+            TestFunction::Clearance(leg, GuardKind::Gap(stop)) => new.push((leg, stop)),
             _ => {}
         }
     }
@@ -396,9 +396,9 @@ impl LastMotion {
         Some(Self { number: last(&at.w), begin, periods: ring.periods, period: ring.period(&frame) })
     }
 
-    /// The cycle close to it at a number that differs by `by` in its scale, with the machine there, and how far it is from the motion
-    /// in its size.
-    fn cycle(&self, tracer: &Tracer<MachineProblem>, by: f64) -> Option<(Machine, Cycle, f64)> {
+    /// The cycle close to it at a number that differs by `by` in its scale, with the machine there and its events, and how far it is
+    /// from the motion in its size.
+    fn cycle(&self, tracer: &Tracer<MachineProblem>, by: f64) -> Option<(Machine, MachineRing, Cycle, f64)> {
         let (low, high) = tracer.problem.range;
         let there = self.number + by * tracer.problem.equations.scales[0];
         (low..=high).contains(&there).then_some(())?;
@@ -406,18 +406,24 @@ impl LastMotion {
         let frame = MachineFrame::new(&machine);
         let cycle = Cycle::lasting(&frame, &self.begin, (self.periods, self.period))?;
         let apart = passing(&frame, &self.begin, &cycle).map_or(f64::INFINITY, |(.., apart)| apart);
-        Some((machine, cycle, apart))
+        let ring = MachineRing::of(&frame, cycle.strobes.first()?, (self.periods, cycle.period))?;
+        Some((machine, ring, cycle, apart))
     }
 
-    /// Whether the cycles come to the motion where the number does, when that at the distance `by` is so far `apart`.
-    fn is_limit(&self, tracer: &Tracer<MachineProblem>, mut by: f64, mut apart: f64) -> bool {
+    /// Whether the `wanted` cycles come to the motion where the number does, when that at the distance `by` is so far `apart`.
+    fn is_limit(
+        &self,
+        tracer: &Tracer<MachineProblem>,
+        (mut by, mut apart): (f64, f64),
+        wanted: &impl Fn(&MachineRing) -> bool,
+    ) -> bool {
         for _ in 0..NEARER_TIMES {
             if apart < NO_JUMP {
                 return true;
             }
             let bend = BEND * by.abs().sqrt();
             by *= NEARER;
-            match self.cycle(tracer, by) {
+            match self.cycle(tracer, by).filter(|(_, next, ..)| wanted(next)) {
                 None => return apart < bend,
                 Some((.., nearer)) if nearer > LIMIT * apart => return false,
                 Some((.., nearer)) => apart = nearer,
@@ -434,14 +440,11 @@ impl LastMotion {
         (by, options): (f64, &BranchOptions),
         wanted: impl Fn(&MachineRing) -> bool,
     ) -> Option<(Tracer<MachineProblem>, bool)> {
-        let (machine, cycle, apart) = self.cycle(tracer, by)?;
-        let frame = MachineFrame::new(&machine);
-        let next = MachineRing::of(&frame, cycle.strobes.first()?, (self.periods, cycle.period))?;
-        wanted(&next).then_some(())?;
+        let (machine, next, cycle, apart) = self.cycle(tracer, by).filter(|(_, next, ..)| wanted(next))?;
         let there = self.number + by * tracer.problem.equations.scales[0];
         let w = MachineEquations::join(&machine, &next, [there]);
         let problem = with_ring(tracer, &machine, next, cycle.sizes);
         let next = begun(problem, &w, there, by.signum(), *options)?;
-        next.here.known.physical().then(|| (next, self.is_limit(tracer, by, apart)))
+        next.here.known.physical().then(|| (next, self.is_limit(tracer, (by, apart), &wanted)))
     }
 }

@@ -272,12 +272,15 @@ impl EventBranch {
     fn goes_back(&self, next: &Tracer<MachineProblem>, number: f64) -> bool {
         let (ring, rises) = (&next.problem.equations.ring, last(&next.here.tangent) > 0.0);
         let near = AGAIN * self.tracer.problem.equations.scales[0];
-        let same = |passed: &Passed| {
+        let same = |passed: &&Passed| {
             passed.rises != rises
                 && (passed.number - number).abs() < near
                 && same_in_turn(&told(&passed.ring), &told(ring))
         };
-        self.path.passed.iter().any(same)
+        // where an impact of a chatter appears and the number turns, what is told is the same, and the cycle is another one
+        let (last, others) = self.path.passed.split_last().unzip();
+        let turned = last.filter(same).is_some_and(|last: &Passed| last.ring.len() == ring.len());
+        turned || others.into_iter().flatten().any(|passed| same(&passed))
     }
 }
 

@@ -79,6 +79,21 @@ fn closest_pair(ring: &MachineRing, joint: Option<usize>) -> Option<(usize, usiz
     Some((of(at), of(at + 1)))
 }
 
+/// The contacts whose rest or hold ends at the event of another one, each with that other one.
+fn freed(ring: &MachineRing) -> Vec<(usize, usize)> {
+    let m = ring.len();
+    let stops = ring.events.first().map_or(0, |event| event.back.len());
+    let at = |k: usize| {
+        let (event, before) = (&ring.events[k], &ring.events[(k + m - 1) % m].after);
+        let by = event.guard.place(stops);
+        let states = before.iter().zip(&event.after).enumerate();
+        states.filter_map(move |(place, (then, now))| {
+            (then.constrains() && !now.constrains() && place != by).then_some((place, by))
+        })
+    };
+    (0..m).flat_map(at).collect()
+}
+
 /// The guards of all events and the states after them, without touches and without those of complete chatters.
 pub(super) fn told(ring: &MachineRing) -> Vec<(GuardKind, &[ContactState])> {
     let m = ring.len();
@@ -120,6 +135,16 @@ pub(super) fn explained(
         BranchEvent::Change { .. } => false,
         _ => true,
     };
+    // a contact is freed by the event of another one, or by its own force just before
+    let (here, there) = (freed(before), freed(beyond));
+    let one_sided =
+        || here.iter().find(|pair| !there.contains(pair)).or(there.iter().find(|pair| !here.contains(pair)));
+    if !explains
+        && old == new
+        && let Some(&(first, second)) = one_sided()
+    {
+        return Some(BranchEvent::Corner { first, second });
+    }
     // where nothing differs but the number of impacts of a chatter, what was found is all that is known
     if explains || old == new && !changes {
         return Some(match event {

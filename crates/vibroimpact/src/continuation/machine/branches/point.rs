@@ -2,7 +2,7 @@
 
 use crate::continuation::event::BranchEvent;
 use crate::machine::{Machine, StopLaw};
-use crate::orbit::{MachineRing, machine::Cycle};
+use crate::orbit::{Chatter, MachineRing, machine::Cycle};
 use crate::regime::{GuardKind, Normal};
 
 /// A point of a branch.
@@ -29,8 +29,14 @@ impl BranchEvent {
     pub(super) fn on(mut self, machine: &Machine, ring: &MachineRing, speed: f64) -> Self {
         let Self::Grazing { stop, also: also @ None, appears: false, .. } = &mut self else { return self };
         let normal = Normal::new(machine);
+        // the last impacts of a chatter are slow wherever the branch is
+        let slows = |chatter: &Chatter| chatter.impacts(ring).into_iter().chain([chatter.rest]);
+        let bounces: Vec<usize> = Chatter::all(ring).iter().flat_map(slows).collect();
         let slow = |k: usize| {
             let GuardKind::Gap(other) = ring.events[k].guard else { return None };
+            if bounces.contains(&k) {
+                return None;
+            }
             let share = match machine.stops()[other].law {
                 StopLaw::Rigid { restitution } => restitution,
                 StopLaw::Compliant { .. } => 1.0,
