@@ -1,6 +1,6 @@
 //! A command line that the parser refuses: all that is missing is named at once, and flags without their dashes are recognised.
 
-use crate::args::ParameterFlag;
+use crate::args::flags;
 use crate::failure::Failure;
 use clap::ArgMatches;
 use clap::builder::StyledStr;
@@ -80,7 +80,7 @@ pub(crate) fn without_effect(command: &ArgMatches) -> Result<(), Failure> {
     let given: Vec<String> =
         command.ids().map(clap::Id::as_str).filter(|id| typed(id)).map(|id| id.replace('_', "-")).collect();
     let has = |flag: &str| given.iter().any(|given| given == flag);
-    let of_oscillator = || ParameterFlag::all().map(ParameterFlag::flag).chain(OF_AN_OSCILLATOR);
+    let of_oscillator = || flags().chain(OF_AN_OSCILLATOR);
     if has("machine") {
         if let Some(flag) = of_oscillator().find(|flag| has(flag)) {
             return Err(Failure::bad(format!(
@@ -130,7 +130,7 @@ fn lacking(words: &[String], named: &[String]) -> Vec<String> {
     };
     let mut all: Vec<String> = needed.iter().filter(open).map(|(_, text)| (*text).to_owned()).collect();
     let ranged = |flag: &str| value(words, &format!("--{flag}")).is_some_and(|text| text.contains([':', ',']));
-    let mut varying = ParameterFlag::all().map(ParameterFlag::flag).chain(SHORT);
+    let mut varying = flags().chain(SHORT);
     if ranges && !varying.any(ranged) {
         all.push("a range A:B:N instead of one of the values".to_owned());
     }

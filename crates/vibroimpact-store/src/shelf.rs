@@ -106,11 +106,7 @@ impl Folder {
 
     /// An object for reading, if there is one.
     fn open(&self, key: &str) -> io::Result<Option<File>> {
-        match File::open(self.place.join(key)) {
-            Ok(file) => Ok(Some(file)),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(error),
-        }
+        there(File::open(self.place.join(key)))
     }
 
     fn unfinished(name: &str) -> bool {
@@ -119,19 +115,14 @@ impl Folder {
 
     /// Calls `found` for each file below `from`.
     fn walk(from: &Path, found: &mut dyn FnMut(&Path, &fs::DirEntry) -> io::Result<()>) -> io::Result<()> {
-        let entries = match fs::read_dir(from) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
-            other => other?,
-        };
-        for entry in entries {
+        for entry in there(fs::read_dir(from))?.into_iter().flatten() {
             let entry = entry?;
             let path = entry.path();
             // a file that another process has just renamed or removed is not an error
-            match entry.file_type() {
-                Ok(kind) if kind.is_dir() => Self::walk(&path, found)?,
-                Ok(_) => found(&path, &entry)?,
-                Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-                Err(error) => return Err(error),
+            match there(entry.file_type())? {
+                Some(kind) if kind.is_dir() => Self::walk(&path, found)?,
+                Some(_) => found(&path, &entry)?,
+                None => {}
             }
         }
         Ok(())
@@ -145,13 +136,18 @@ impl Folder {
     }
 }
 
+/// What is found; `None` if nothing is there.
+fn there<T>(found: io::Result<T>) -> io::Result<Option<T>> {
+    match found {
+        Ok(found) => Ok(Some(found)),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error),
+    }
+}
+
 impl Shelf for Folder {
     fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
-        match fs::read(self.place.join(key)) {
-            Ok(bytes) => Ok(Some(bytes)),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(error),
-        }
+        there(fs::read(self.place.join(key)))
     }
 
     fn tail(&self, key: &str, count: usize) -> io::Result<Option<(Vec<u8>, u64)>> {
@@ -173,10 +169,7 @@ impl Shelf for Folder {
 
     fn remove(&self, key: &str) -> io::Result<()> {
         let path = self.place.join(key);
-        match fs::remove_file(&path) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-            _ => {}
-        }
+        there(fs::remove_file(&path))?;
         // folders that have become empty; one that another process is filling is not removed, or made again by it
         for folder in path.ancestors().skip(1).take_while(|folder| *folder != self.place) {
             if fs::remove_dir(folder).is_err() {
@@ -217,12 +210,11 @@ impl Shelf for Folder {
             let Ok(relative) = path.strip_prefix(&self.place) else { return Ok(()) };
             let parts: Vec<_> = relative.iter().map(|part| part.to_string_lossy()).collect();
             let key = parts.join("/");
-            if key.starts_with(prefix) && !parts.last().is_some_and(|name| Self::unfinished(name)) {
-                match entry.metadata() {
-                    Ok(found) => items.push(Item { key, size: found.len(), modified: found.modified()? }),
-                    Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-                    Err(error) => return Err(error),
-                }
+            if key.starts_with(prefix)
+                && !parts.last().is_some_and(|name| Self::unfinished(name))
+                && let Some(found) = there(entry.metadata())?
+            {
+                items.push(Item { key, size: found.len(), modified: found.modified()? });
             }
             Ok(())
         })?;

@@ -1,6 +1,6 @@
 //! AXES: the order in which the parameters that vary are the axes.
 
-use super::parameter_flag::{ParameterFlag, flag, parameter};
+use super::parameter_flag::{flag, parameter};
 use crate::failure::Failure;
 use clap::Args;
 use vibroimpact::math::sort_by_key;
@@ -11,7 +11,7 @@ use vibroimpact_study::Parameter;
 pub(crate) struct AxesArgs {
     /// The parameters that vary in the order of the axes, the first to the right: gap,inverse-beta [default: in that of the flags]
     #[arg(long, value_name = "PARAMETERS", value_delimiter = ',', value_parser = parameter(), hide_possible_values = true)]
-    axes: Vec<ParameterFlag>,
+    axes: Vec<Parameter>,
 }
 
 impl AxesArgs {
@@ -22,12 +22,12 @@ impl AxesArgs {
         }
         let names = |parameters: &[Parameter]| parameters.iter().map(|p| flag(*p)).collect::<Vec<_>>().join(",");
         let vary: Vec<Parameter> = varied.iter().map(&parameter).collect();
-        let place = |one: &T| self.axes.iter().position(|other| other.parameter == parameter(one));
+        let place = |one: &T| self.axes.iter().position(|other| *other == parameter(one));
         let each_once = self.axes.len() == vary.len() && varied.iter().all(|one| place(one).is_some());
         if !each_once {
             return Err(Failure::bad(format!(
                 "--axes {} is not the order of what varies: {}\nhint: name each parameter that has a range once",
-                self.axes.iter().map(|named| named.flag()).collect::<Vec<_>>().join(","),
+                names(&self.axes),
                 if vary.is_empty() { "nothing".to_owned() } else { names(&vary) }
             )));
         }
@@ -44,11 +44,7 @@ mod tests {
     #[test]
     fn each_parameter_once() {
         use Parameter::{Beta, Gap, Restitution};
-        let order = |axes: &[Parameter]| {
-            AxesArgs { axes: axes.iter().map(|parameter| ParameterFlag { parameter: *parameter }).collect() }
-                .order(vec![Beta, Gap], |p| *p)
-                .ok()
-        };
+        let order = |axes: &[Parameter]| AxesArgs { axes: axes.to_vec() }.order(vec![Beta, Gap], |p| *p).ok();
         assert_eq!(order(&[]), Some(vec![Beta, Gap]));
         assert_eq!(order(&[Beta, Gap]), Some(vec![Beta, Gap]));
         assert_eq!(order(&[Gap, Beta]), Some(vec![Gap, Beta]));

@@ -1,6 +1,6 @@
 //! BODY: the system in SI units, and what drives it.
 
-use super::parameter_flag::ParameterFlag;
+use super::parameter_flag::flag;
 use super::ranged::{Ranged, with_unit};
 use super::unit_text::UnitKind;
 use crate::failure::Failure;
@@ -102,7 +102,7 @@ pub(crate) struct BodyArgs {
 const EXCITATION: &str = "Excitation of a system in physical units, besides the force or instead of it";
 
 /// A number of the body and the ends of its range.
-pub(crate) type Ends = (ParameterFlag, (f64, f64));
+pub(crate) type Ends = (Parameter, (f64, f64));
 
 impl BodyArgs {
     /// The numbers that are given, in the order of the flags. The damping ratio stands for the logarithmic decrement too,
@@ -157,7 +157,7 @@ impl BodyArgs {
 
     /// Refuses several values of a number.
     pub(super) fn one_value(&self, hint: &str) -> Result<(), Failure> {
-        let mut several = self.ranges().map(|(parameter, _)| ParameterFlag::of_body(parameter).flag());
+        let mut several = self.ranges().map(|(number, _)| flag(Parameter::Body(number)));
         let other = [("log-decrement", &self.log_decrement), ("omega-rad-per-s", &self.omega_rad_per_s)];
         let other = other.into_iter().find(|(_, given)| given.as_ref().is_some_and(|given| !given.is_one()));
         match several.next().or(other.map(|(flag, _)| flag)) {
@@ -171,22 +171,21 @@ impl BodyArgs {
 
     /// The numbers with several values, which are ranges A:B.
     pub(crate) fn ends(&self) -> Result<Vec<Ends>, Failure> {
-        let ends = |(parameter, ranged): (BodyNumber, &Ranged)| {
-            let named = ParameterFlag::of_body(parameter);
+        let ends = |(number, ranged): (BodyNumber, &Ranged)| {
+            let parameter = Parameter::Body(number);
             let ends = ranged.ends().filter(|(from, to)| from < to);
-            ends.map(|ends| (named, ends))
-                .ok_or_else(|| Failure::bad(format!("--{} is not A:B with finite A < B", named.flag())))
+            ends.map(|ends| (parameter, ends))
+                .ok_or_else(|| Failure::bad(format!("--{} is not A:B with finite A < B", flag(parameter))))
         };
         self.ranges().map(ends).collect()
     }
 
     /// The axes over the numbers with several values.
-    pub(super) fn axes(&self) -> Result<Vec<(ParameterFlag, Axis)>, Failure> {
-        let axis = |(parameter, ranged): (BodyNumber, &Ranged)| {
-            let named = ParameterFlag::of_body(parameter);
-            ranged.axis(named.parameter).map(|axis| (named, axis)).ok_or_else(|| {
-                let (from, to) = ranged.ends().unwrap_or_default();
-                let flag = named.flag();
+    pub(super) fn axes(&self) -> Result<Vec<(Parameter, Axis)>, Failure> {
+        let axis = |(number, ranged): (BodyNumber, &Ranged)| {
+            let parameter = Parameter::Body(number);
+            ranged.axis(parameter).map(|axis| (parameter, axis)).ok_or_else(|| {
+                let ((from, to), flag) = (ranged.ends().unwrap_or_default(), flag(parameter));
                 Failure::bad(format!(
                     "--{flag} {from}:{to} has no number of values\nhint: --{flag} {from}:{to}:41 has 41 values"
                 ))

@@ -34,7 +34,7 @@ pub(crate) use numbers::{number, whole, within};
 pub(crate) use output::Globals;
 pub(crate) use outputs::{Files, OutputArgs};
 pub(crate) use overlay::OverlayArgs;
-pub(crate) use parameter_flag::{ParameterFlag, Varied, varied};
+pub(crate) use parameter_flag::{Varied, flag, flags, varied};
 pub(crate) use plane::{BranchEnds, Ends, Interval, Named, Value, VariedNamed, VariedOver, place};
 pub(crate) use question::{AskedSystem, Question, StartedArgs};
 pub(crate) use ranged::{Ranged, axis_values};

@@ -7,59 +7,35 @@ use std::ffi::OsStr;
 use std::sync::LazyLock;
 use vibroimpact_study::{BodyNumber, Parameter};
 
-/// A parameter that varies, as it was named: a parameter of the oscillator or a number of a body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct ParameterFlag {
-    pub(crate) parameter: Parameter,
+/// All parameters of an oscillator, those of a body last.
+fn parameters() -> impl Iterator<Item = Parameter> {
+    Parameter::ALL.into_iter().chain(BodyNumber::ALL.into_iter().map(Parameter::Body))
 }
 
-impl ParameterFlag {
-    /// A number of a body.
-    pub(crate) const fn of_body(number: BodyNumber) -> Self {
-        Self { parameter: Parameter::Body(number) }
-    }
+/// The names of their flags, without dashes before them.
+pub(crate) fn flags() -> impl Iterator<Item = &'static str> {
+    parameters().map(flag)
+}
 
-    /// All of them, those of a body last.
-    pub(crate) fn all() -> impl Iterator<Item = Self> {
-        let body = BodyNumber::ALL.into_iter().map(Self::of_body);
-        Parameter::ALL.into_iter().map(|parameter| Self { parameter }).chain(body)
-    }
+/// The parameter with a flag of this name.
+pub(super) fn of_flag(name: &str) -> Option<Parameter> {
+    parameters().find(|parameter| flag(*parameter) == name)
+}
 
-    /// The number of a body, if it is one.
-    pub(crate) const fn number(self) -> Option<BodyNumber> {
-        self.parameter.of_body()
-    }
-
-    /// Its name on the command line, without dashes before it.
-    pub(crate) fn flag(self) -> &'static str {
-        flag(self.parameter)
-    }
-
-    fn meaning(self) -> String {
-        match self.parameter {
-            Parameter::Body(parameter) => {
-                let unit = parameter.unit();
-                let name = parameter.description();
-                if unit.is_empty() { format!("of a body: {name}") } else { format!("of a body: {name} in {unit}") }
-            }
-            parameter => meaning(parameter).to_owned(),
-        }
-    }
+fn possible() -> Vec<PossibleValue> {
+    parameters().map(|parameter| PossibleValue::new(flag(parameter)).help(meaning(parameter))).collect()
 }
 
 /// Parses a parameter from the name of its flag.
-pub(super) fn parameter() -> impl TypedValueParser<Value = ParameterFlag> {
-    let values: Vec<PossibleValue> =
-        ParameterFlag::all().map(|named| PossibleValue::new(named.flag()).help(named.meaning())).collect();
-    PossibleValuesParser::new(values).try_map(|name| {
-        ParameterFlag::all().find(|named| named.flag() == name).ok_or_else(|| format!("`{name}` is no parameter"))
-    })
+pub(super) fn parameter() -> impl TypedValueParser<Value = Parameter> {
+    PossibleValuesParser::new(possible())
+        .try_map(|name| of_flag(&name).ok_or_else(|| format!("`{name}` is no parameter")))
 }
 
 /// What a branch varies: a parameter, or the path of a number of a machine.
 #[derive(Clone, Debug)]
 pub(crate) enum Varied {
-    Parameter(ParameterFlag),
+    Parameter(Parameter),
     Path(String),
     /// A parameter of a machine file, or else this message.
     Name(String, String),
@@ -67,7 +43,7 @@ pub(crate) enum Varied {
 
 impl Varied {
     /// The parameter of the oscillator.
-    pub(crate) fn parameter(&self) -> Result<ParameterFlag, Failure> {
+    pub(crate) fn parameter(&self) -> Result<Parameter, Failure> {
         match self {
             Self::Parameter(parameter) => Ok(*parameter),
             Self::Path(path) => Err(Failure::bad(format!(
@@ -80,7 +56,7 @@ impl Varied {
     /// The path in a machine.
     pub(crate) fn path(&self) -> String {
         match self {
-            Self::Parameter(parameter) => parameter.flag().to_owned(),
+            Self::Parameter(parameter) => flag(*parameter).to_owned(),
             Self::Path(path) | Self::Name(path, _) => path.clone(),
         }
     }
@@ -114,22 +90,19 @@ impl TypedValueParser for VariedParser {
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        let values: Vec<PossibleValue> =
-            ParameterFlag::all().map(|named| PossibleValue::new(named.flag()).help(named.meaning())).collect();
-        Some(Box::new(values.into_iter()))
+        Some(Box::new(possible().into_iter()))
     }
 }
 
 /// The name of the flag of a parameter, without the dashes.
 pub(crate) fn flag(parameter: Parameter) -> &'static str {
-    static FLAGS: LazyLock<Vec<(Parameter, String)>> = LazyLock::new(|| {
-        ParameterFlag::all().map(|of| (of.parameter, of.parameter.name().replace('_', "-"))).collect()
-    });
+    static FLAGS: LazyLock<Vec<(Parameter, String)>> =
+        LazyLock::new(|| parameters().map(|of| (of, of.name().replace('_', "-"))).collect());
     FLAGS.iter().find(|(known, _)| *known == parameter).map_or("", |(_, flag)| flag)
 }
 
-const fn meaning(parameter: Parameter) -> &'static str {
-    match parameter {
+fn meaning(parameter: Parameter) -> String {
+    let words = match parameter {
         Parameter::Beta => "Frequency ratio omega/omega_n",
         Parameter::InverseBeta => "Its inverse omega_n/omega",
         Parameter::Gap => "Distance of the stop",
@@ -137,6 +110,10 @@ const fn meaning(parameter: Parameter) -> &'static str {
         Parameter::Damping => "Damping ratio zeta",
         Parameter::SecondGap => "Distance of the second stop",
         Parameter::SecondRestitution => "Restitution of the second stop",
-        Parameter::Body(parameter) => parameter.description(),
-    }
+        Parameter::Body(number) => {
+            let (name, unit) = (number.description(), number.unit());
+            return if unit.is_empty() { format!("of a body: {name}") } else { format!("of a body: {name} in {unit}") };
+        }
+    };
+    words.to_owned()
 }

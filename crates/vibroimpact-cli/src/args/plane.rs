@@ -2,9 +2,10 @@
 
 use super::Ranged;
 use super::numbers::{self, shown};
-use super::parameter_flag::{ParameterFlag, Varied};
+use super::parameter_flag::{Varied, flags, of_flag};
 use crate::failure::Failure;
 use core::str::FromStr;
+use vibroimpact_study::Parameter;
 use vibroimpact_study::typed::{self, decimal, meant};
 
 /// `A:B`.
@@ -93,16 +94,15 @@ impl FromStr for Value {
 
 /// `PARAMETER=...`: a parameter with a value or range.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Named<T>(pub(crate) ParameterFlag, pub(crate) T);
+pub(crate) struct Named<T>(pub(crate) Parameter, pub(crate) T);
 
 impl<T: FromStr<Err: core::fmt::Display>> FromStr for Named<T> {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
         let (name, range) = text.split_once('=').map_or((text, None), |(name, range)| (name, Some(range)));
-        let named = ParameterFlag::all().find(|named| named.flag() == name.trim());
-        let named = named.ok_or_else(|| {
-            let known = ParameterFlag::all().map(ParameterFlag::flag).collect::<Vec<_>>().join(", ");
+        let named = of_flag(name.trim()).ok_or_else(|| {
+            let known = flags().collect::<Vec<_>>().join(", ");
             format!("`{}` does not begin with PARAMETER=; parameters: {known}", shown(text))
         })?;
         let Some(range) = range else {
@@ -137,7 +137,7 @@ impl<T: FromStr<Err: core::fmt::Display>> FromStr for VariedNamed<T> {
         let Some((name, range)) = text.split_once('=') else { return Err(unknown) };
         let name = name.trim();
         // the value or range of a parameter is wrong
-        if ParameterFlag::all().any(|named| named.flag() == name) {
+        if of_flag(name).is_some() {
             return Err(unknown);
         }
         let range = range.trim().parse().map_err(|error: T::Err| error.to_string())?;
@@ -150,20 +150,18 @@ impl<T: FromStr<Err: core::fmt::Display>> FromStr for VariedNamed<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vibroimpact_study::Parameter;
 
     #[test]
     fn ranges_and_what_is_none() {
         assert_eq!("-1:5".parse(), Ok(Interval(-1.0, 5.0)));
         assert_eq!(place("0.5"), Ok(Ranged::At(0.5)));
         assert_eq!(place("0.4:2"), Ok(Ranged::Ends(0.4, 2.0)));
-        let plain = |parameter| ParameterFlag { parameter };
-        assert_eq!("second-gap=1:2".parse(), Ok(Named(plain(Parameter::SecondGap), Interval(1.0, 2.0))));
-        assert_eq!("gap=2:1".parse(), Ok(Named(plain(Parameter::Gap), Ends(2.0, 1.0))));
-        assert_eq!("gap= -0.5".parse(), Ok(Named(plain(Parameter::Gap), Value(-0.5))));
+        assert_eq!("second-gap=1:2".parse(), Ok(Named(Parameter::SecondGap, Interval(1.0, 2.0))));
+        assert_eq!("gap=2:1".parse(), Ok(Named(Parameter::Gap, Ends(2.0, 1.0))));
+        assert_eq!("gap= -0.5".parse(), Ok(Named(Parameter::Gap, Value(-0.5))));
         assert!("gap=1,5".parse::<Named<Value>>().is_err_and(|why| why.ends_with("hint: write 1.5")));
         assert!("gap".parse::<Named<Ends>>().is_err_and(|why| why.contains("hint: gap= and its value")));
-        let hertz = ParameterFlag::of_body(vibroimpact_study::BodyNumber::Frequency);
+        let hertz = Parameter::Body(vibroimpact_study::BodyNumber::Frequency);
         assert_eq!("frequency-hz=15:25".parse(), Ok(Named(hertz, Interval(15.0, 25.0))));
         for bad in ["gap=1:2:3", "gap=1", "gap=1:nan", "1:2"] {
             assert!(bad.parse::<Named<Ends>>().is_err(), "{bad}");

@@ -1,7 +1,8 @@
 //! The system of a command, an oscillator or a machine, and the question about it.
 
 use super::{
-    ColourArgs, FieldsArgs, MachineArgs, StartArgs, StartOfMachineArgs, StoreArgs, StudyAxesArgs, SystemArgs, Varied,
+    ColourArgs, FieldsArgs, MachineArgs, MachineAxesArgs, RangedSystemArgs, StartArgs, StartOfMachineArgs, StoreArgs,
+    StudyAxesArgs, SystemArgs, Varied,
 };
 use super::{Interval, VariedNamed};
 use crate::args::plane::{Ends, Value};
@@ -102,7 +103,7 @@ impl<'a> AskedSystem<'a> {
     pub(crate) fn variable(&self, varied: &Varied) -> Result<(Variable, f64), Failure> {
         match self {
             Self::Oscillator(asked) => {
-                let parameter = varied.parameter()?.parameter;
+                let parameter = varied.parameter()?;
                 Ok((parameter.into(), asked.units.of(parameter)))
             }
             Self::Machine(..) => Ok((Variable::Path(varied.path()), 1.0)),
@@ -129,6 +130,15 @@ impl<'a> AskedSystem<'a> {
     /// What varies with another number, and its values at both ends.
     pub(crate) fn ends(&self, also: Option<&VariedNamed<Ends>>) -> Result<Option<Stretch<Variable>>, Failure> {
         also.map(|VariedNamed(varied, Ends(from, to))| self.stretch(varied, (*from, *to))).transpose()
+    }
+
+    /// The axes over the ranges of an oscillator, or over numbers of a machine.
+    pub(crate) fn ranged(
+        &self,
+        ranges: &RangedSystemArgs,
+        of_machine: &MachineAxesArgs,
+    ) -> Result<Vec<Axis<Variable>>, Failure> {
+        if self.is_machine() { Ok(of_machine.axes()) } else { ranges.axes() }
     }
 
     /// The axes of a study of exponents.

@@ -2,12 +2,11 @@
 
 use super::AxesArgs;
 use super::body::BodyArgs;
-use super::parameter_flag::ParameterFlag;
 use super::system::{Convention, NumbersArgs, values, without_second_restitution};
 use crate::failure::Failure;
 use clap::Args;
 use vibroimpact_report::Asked;
-use vibroimpact_study::{Axis, Parameter};
+use vibroimpact_study::{Axis, Parameter, Variable};
 
 /// The parameters of a system, values or ranges.
 #[derive(Clone, Debug, Args)]
@@ -35,12 +34,10 @@ impl RangedSystemArgs {
     }
 
     /// The parameters that vary, in the order of the axes.
-    pub(crate) fn axes(&self) -> Result<Vec<Axis>, Failure> {
+    pub(crate) fn axes(&self) -> Result<Vec<Axis<Variable>>, Failure> {
         let mut varied = self.numbers.body(&self.body).axes()?;
-        let plain = |(parameter, given): (Parameter, &super::Ranged)| {
-            Some((ParameterFlag { parameter }, given.axis(parameter)?))
-        };
-        varied.extend(self.numbers.given().filter_map(plain));
-        Ok(self.axes.order(varied, |(named, _)| named.parameter)?.into_iter().map(|(_, axis)| axis).collect())
+        varied.extend(self.numbers.given().filter_map(|(parameter, given)| Some((parameter, given.axis(parameter)?))));
+        let of_axis = |(_, Axis { vary, over }): (_, Axis)| Axis { vary: vary.into(), over };
+        Ok(self.axes.order(varied, |(parameter, _)| *parameter)?.into_iter().map(of_axis).collect())
     }
 }

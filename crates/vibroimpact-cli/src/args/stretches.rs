@@ -1,13 +1,13 @@
 //! SYSTEM with ranges A:B: each parameter is one value or lies between two ends.
 
 use super::system::{NumbersArgs, without_second_restitution};
-use super::{BodyArgs, Convention, ParameterFlag};
+use super::{BodyArgs, Convention};
 use crate::failure::Failure;
 use vibroimpact_report::Asked;
 use vibroimpact_study::{BodyNumber, Parameter, Stretch};
 
 /// How the numbers of a body that vary are parameters: as those of the oscillator, or as they are.
-pub(crate) type AsParameters = fn(&mut Asked, &[ParameterFlag]) -> Vec<Parameter>;
+pub(crate) type AsParameters = fn(&mut Asked, &[Parameter]) -> Vec<Parameter>;
 
 impl NumbersArgs {
     /// Whether the restitution varies and that of a second stop would have to follow it.
@@ -40,7 +40,7 @@ impl NumbersArgs {
             (first.iter()).filter_map(|(parameter, value)| Some((parameter.of_body()?, *value))).collect();
         let units = if physical.is_empty() && set.is_empty() { units } else { Convention::Si };
         let mut asked = numbers.first(body, units, &set)?;
-        let flags: Vec<ParameterFlag> = physical.iter().map(|(named, _)| *named).collect();
+        let flags: Vec<Parameter> = physical.iter().map(|(parameter, _)| *parameter).collect();
         let parameters = as_parameters(&mut asked, &flags);
         let ranges = parameters.into_iter().zip(physical).map(|(parameter, (_, ends))| (parameter, ends));
         let plain = self.given().filter_map(|(parameter, given)| Some((parameter, given.ends()?)));

@@ -1,8 +1,6 @@
 //! `vibro curve`: a fold, flip or grazing impact of an orbit in a plane of two parameters.
 
-use crate::args::{
-    MachineArgs, OutputArgs, ParameterFlag, StartOfMachineArgs, SystemArgs, Varied, VariedOver, of_oscillator, whole,
-};
+use crate::args::{MachineArgs, OutputArgs, StartOfMachineArgs, SystemArgs, Varied, VariedOver, of_oscillator, whole};
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
@@ -138,7 +136,7 @@ pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
     let mut varied = [args.vary.0.clone(), args.and.0.clone()];
     let oscillator = || {
         let (asked, parameters) = args.oscillator()?;
-        varied = parameters.map(|parameter| Varied::Parameter(ParameterFlag { parameter }));
+        varied = parameters.map(Varied::Parameter);
         Ok(asked)
     };
     let system = args.machine.or_oscillator(Some((&args.of_machine, None)), oscillator)?;

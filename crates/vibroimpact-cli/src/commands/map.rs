@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use vibroimpact_report::Shown;
-use vibroimpact_study::{Axis, MapPlan};
+use vibroimpact_study::MapPlan;
 
 /// Which motions exist at each point of a plane of parameters
 ///
@@ -82,12 +82,7 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
     if system.is_machine() && args.overlay.any() {
         return Err(Failure::bad("--layers, --mark and --line are for maps without --machine"));
     }
-    let axes = if system.is_machine() {
-        args.machine_axes.axes()
-    } else {
-        let axes = args.plane.axes()?.into_iter().map(|axis| Axis { vary: axis.vary.into(), over: axis.over });
-        axes.collect()
-    };
+    let axes = system.ranged(&args.plane, &args.machine_axes)?;
     if axes.is_empty() && !system.is_machine() {
         return Err(Failure::bad(
             "nothing varies\nhint: give one of the parameters a range, --gap 0:5:41; `vibro attractors` answers for one point",

@@ -1,6 +1,6 @@
 //! `vibro margins`: how far a periodic motion is from the events that end or change it.
 
-use crate::args::{Named, OutputArgs, ParameterFlag, StartedArgs, Varied, VariedNamed, number, varied, whole};
+use crate::args::{Named, OutputArgs, StartedArgs, Varied, VariedNamed, flag, number, varied, whole};
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
@@ -103,20 +103,20 @@ impl Margins {
         let body = self.of.system().is_body();
         let asked = if body { self.of.system().in_si().asked()? } else { self.of.system().asked()? };
         let known = MarginsPlan::parameters(&asked.system);
-        let vary = self.vary.iter().map(Varied::parameter).collect::<Result<Vec<ParameterFlag>, Failure>>()?;
+        let vary = self.vary.iter().map(Varied::parameter).collect::<Result<Vec<Parameter>, Failure>>()?;
         let scales = self.scale.iter().map(VariedNamed::of_oscillator).collect::<Result<Vec<Named<f64>>, Failure>>()?;
         let named = vary.iter().chain(scales.iter().map(|Named(named, _)| named));
-        let nondimensional = |of: Parameter| {
+        let nondimensional = |of: &Parameter| {
             matches!(
                 of,
                 Parameter::Beta | Parameter::InverseBeta | Parameter::Gap | Parameter::SecondGap | Parameter::Damping
             )
         };
-        if let Some(wrong) = named.clone().find(|named| body && nondimensional(named.parameter)) {
+        if let Some(wrong) = named.clone().find(|named| body && nondimensional(named)) {
             return Err(Failure::bad(format!(
                 "{} is nondimensional, and margins of a system in physical units are in SI units\nhint: {}",
-                wrong.flag(),
-                match wrong.parameter {
+                flag(*wrong),
+                match wrong {
                     Parameter::Gap => "gap-m",
                     Parameter::SecondGap => "second-gap-m",
                     Parameter::Damping => "damping-ratio",
@@ -124,21 +124,20 @@ impl Margins {
                 }
             )));
         }
-        let all: Vec<ParameterFlag> = known.into_iter().map(|parameter| ParameterFlag { parameter }).collect();
-        let flags = if vary.is_empty() { all } else { vary };
+        let parameters = if vary.is_empty() { known } else { vary };
         let scale = |parameter| {
-            let of = |Named(named, value): &Named<f64>| (named.parameter == parameter).then_some(*value);
+            let of = |Named(named, value): &Named<f64>| (*named == parameter).then_some(*value);
             scales.iter().rev().find_map(of).map(|value| value / asked.units.of(parameter))
         };
-        let unknown = |Named(named, _): &&Named<f64>| !flags.iter().any(|flag| flag.parameter == named.parameter);
+        let unknown = |Named(named, _): &&Named<f64>| !parameters.contains(named);
         if let Some(Named(named, _)) = scales.iter().find(unknown) {
             return Err(Failure::bad(format!(
                 "--scale {0} has no effect: {0} does not vary\nhint: --vary",
-                named.flag()
+                flag(*named)
             )));
         }
-        let scaled = |flag: &ParameterFlag| ScaledParameter { parameter: flag.parameter, scale: scale(flag.parameter) };
+        let scaled = |parameter: &Parameter| ScaledParameter { parameter: *parameter, scale: scale(*parameter) };
         let all = self.vary.is_empty() && self.scale.is_empty();
-        Ok((asked, if all { Vec::new() } else { flags.iter().map(scaled).collect() }))
+        Ok((asked, if all { Vec::new() } else { parameters.iter().map(scaled).collect() }))
     }
 }

@@ -5,7 +5,7 @@ use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use vibroimpact_study::{Axis, ResponsePlan};
+use vibroimpact_study::ResponsePlan;
 
 /// The response over a number, such as the frequency: a quantity of all motions, from branches and sweeps
 ///
@@ -60,13 +60,13 @@ pub(crate) struct Response {
 
 pub(super) fn run(args: &Response, session: &Session) -> Result<(), Failure> {
     let system = args.machine.or_oscillator(Some((&args.start, None)), || args.system.asked())?;
-    let (axes, quantity) = if system.is_machine() {
-        (args.machine_axes.axes(), args.quantity.clone())
+    let quantity = if system.is_machine() {
+        args.quantity.clone()
     } else {
         let named = args.quantity.as_deref().map(|name| quantity(name).map_err(Failure::bad)).transpose()?;
-        let axes = args.system.axes()?.into_iter().map(|axis| Axis { vary: axis.vary.into(), over: axis.over });
-        (axes.collect(), named.map(|named| named.name().to_owned()))
+        named.map(|named| named.name().to_owned())
     };
+    let axes = system.ranged(&args.system, &args.machine_axes)?;
     let [axis] = axes.as_slice() else {
         return Err(Failure::bad(format!(
             "a response is over one number, and ranges are given for {}\nhint: --beta 0.5:1.5:201, or of a machine --axis frequency=0.5:1.5:201; `vibro map` takes several",

@@ -222,10 +222,7 @@ impl SettleMany {
     }
 
     fn asked(&self, first: &[(Parameter, f64)]) -> Result<(Asked, Vec<vibroimpact_study::Stretch>), Failure> {
-        let as_they_are = |_: &mut Asked, flags: &[crate::args::ParameterFlag]| {
-            flags.iter().map(|named| named.parameter).collect::<Vec<_>>()
-        };
-        self.system.over_ranges((&self.body, self.units), first, as_they_are)
+        self.system.over_ranges((&self.body, self.units), first, |_, as_they_are| as_they_are.to_vec())
     }
 }
 

@@ -14,12 +14,12 @@ pub(crate) fn text<D: Teller>(of: &AnswerOf<D>, census: &Census<D::System>) -> S
     let heads = ["share", "starts", "<label", "multipliers", "impact speed", "power in", "<meaning"].map(str::to_owned);
     let row = |found: &&CountedMotion<D::System>| {
         let verdict = &found.verdict;
-        let all = D::multipliers(of, verdict).filter(|all| !all.is_empty());
+        let all = D::multipliers(of, verdict);
         vec![
             percent(census.share(found)),
             found.count.to_string(),
             verdict.label().into_owned(),
-            all.map_or_else(|| "-".into(), |all| multipliers(&all)),
+            if all.is_empty() { "-".into() } else { multipliers(&all) },
             D::quantity_text(of, verdict, Quantity::ImpactSpeedMax),
             D::quantity_text(of, verdict, Quantity::Power),
             D::meaning(of, verdict) + &D::by_stop(of, verdict),

@@ -29,7 +29,7 @@ pub(crate) fn text<D: Teller>(of: &AnswerOf<D>, found: &Edge<D::System>) -> Stri
             let _ = writeln!(text, "{}{by_stop}: {}", saddle.label(), D::meaning(of, saddle));
             text.push_str(&D::events_text(of, saddle));
             if let Some(stability) = D::stability_words(of, saddle) {
-                let multipliers = D::multipliers(of, saddle).unwrap_or_default();
+                let multipliers = D::multipliers(of, saddle);
                 let _ = writeln!(text, "  {stability}; multipliers {}", words::multipliers(&multipliers));
             }
         }

@@ -1,14 +1,12 @@
 //! Lyapunov exponents as text.
 
 use crate::report::motion::Teller;
-use crate::report::words::{meaning, seconds, stop_name, table};
+use crate::report::words::{seconds, stop_name, table};
 use std::fmt::Write;
 use vibroimpact::chaos::{Exponents, Grounds, Measured};
-use vibroimpact::machine::Machine;
-use vibroimpact::verdict::NoImpact;
+use vibroimpact::verdict::{NoImpact, System};
 use vibroimpact_report::number::short;
 use vibroimpact_report::{AnswerOf, Units};
-use vibroimpact_study::machine::MachineSource;
 
 /// The text of a measured number: `0.01862 +- 0.00023`, rounded according to its error; `minus infinity`, `none`, or
 /// the number alone if it is exact.
@@ -27,95 +25,57 @@ fn said(of: Measured) -> String {
     }
 }
 
-/// Exponents of any system, as they are told.
-struct Told {
-    /// The label and the meaning of the motion.
-    motion: String,
-    /// The unit of time.
-    time: &'static str,
-    /// The names of the exponents, and their values per unit of time.
-    exponents: Vec<(String, Measured)>,
-    /// The forcing period in these units; `None` without forcing.
-    period: Option<f64>,
-    impacts_per_period: Option<Measured>,
-    /// The dimensions of the section and of the flow.
-    dimensions: Option<(Measured, Measured)>,
-    /// The coordinates of the flow.
-    space: &'static str,
-    grounds: String,
+/// The motion, its exponents, and how they were obtained. A machine whose motion ended before has none.
+pub(crate) fn text<D: Teller>(of: &AnswerOf<D>, found: &Exponents<D::System>) -> String {
+    let (units, machine) = (&of.units, D::machine(of));
+    let ended = machine.is_some() && matches!(found.grounds, Grounds::Undecided { .. });
+    let named: Vec<(String, Measured)> = match machine {
+        None => {
+            let names = ["larger exponent", "smaller exponent", "their sum"].map(str::to_owned);
+            names.into_iter().zip(found.exponents.iter().copied().chain([found.sum])).collect()
+        }
+        Some(_) => {
+            let all = found.exponents.iter().filter(|_| !ended).enumerate();
+            all.map(|(k, of)| (format!("exponent {}", k + 1), *of)).collect()
+        }
+    };
+    let mut heads = vec!["<".to_owned(), format!("<per {}", if units.si { "second" } else { "unit of time" })];
+    heads.extend(D::period(of).map(|_| "<per forcing period".to_owned()));
+    let row = |(name, measured): (String, Measured)| {
+        let per_time = measured.scaled(1.0 / units.time());
+        let per_period = D::period(of).map(|period| said(per_time.scaled(period * units.time())));
+        [name, said(per_time)].into_iter().chain(per_period).collect()
+    };
+    let rows: Vec<Vec<String>> = named.into_iter().map(row).collect();
+    let mut text = format!("{}: {}\n", found.motion.label(), D::meaning(of, &found.motion));
+    text.push_str(&if rows.is_empty() { "  no exponents\n".to_owned() } else { table(&heads, &rows) });
+    if let Some(period) = D::period(of).filter(|_| !ended) {
+        let _ = writeln!(text, "  impacts per forcing period {}", said(found.impact_rate.scaled(period)));
+    }
+    let space = machine.map_or("x, v and phase", |_| "coordinates, velocities and phase");
+    let _ = match found.section_dimension.zip(found.flow_dimension) {
+        Some((section, flow)) => writeln!(
+            text,
+            "  Kaplan-Yorke dimension {} of the stroboscopic section, {} of the flow in {space}",
+            said(section),
+            said(flow)
+        ),
+        _ => writeln!(text, "  no Kaplan-Yorke dimension: the larger exponent is not known to differ from 0"),
+    };
+    let grounds = machine.map_or_else(|| grounds(found, units), |_| grounds_of_machine(&found.grounds));
+    let _ = writeln!(text, "  {grounds}");
+    text
 }
 
-impl Told {
-    fn text(self) -> String {
-        let mut heads = vec!["<".to_owned(), format!("<per {}", self.time)];
-        heads.extend(self.period.map(|_| "<per forcing period".to_owned()));
-        let row = |(name, of): &(String, Measured)| {
-            let per_period = self.period.map(|period| said(of.scaled(period)));
-            [name.clone(), said(*of)].into_iter().chain(per_period).collect()
-        };
-        let rows: Vec<Vec<String>> = self.exponents.iter().map(row).collect();
-        let mut text = format!("{}\n", self.motion);
-        text.push_str(&if rows.is_empty() { "  no exponents\n".to_owned() } else { table(&heads, &rows) });
-        if let Some(impacts) = self.impacts_per_period {
-            let _ = writeln!(text, "  impacts per forcing period {}", said(impacts));
-        }
-        let _ = match self.dimensions {
-            Some((section, flow)) => writeln!(
-                text,
-                "  Kaplan-Yorke dimension {} of the stroboscopic section, {} of the flow in {}",
-                said(section),
-                said(flow),
-                self.space
-            ),
-            _ => writeln!(text, "  no Kaplan-Yorke dimension: the larger exponent is not known to differ from 0"),
-        };
-        let _ = writeln!(text, "  {}", self.grounds);
-        text
+fn grounds_of_machine(of: &Grounds) -> String {
+    match of {
+        Grounds::Undecided { .. } => "the motion ended before".to_owned(),
+        Grounds::Measured { time, .. } => format!("measured over a time of {}", short(*time)),
+        _ => "exact: those of a cycle, or of a motion without further events".to_owned(),
     }
 }
 
-/// The motion, its exponents, and how they were obtained.
-pub(crate) fn text(found: &Exponents, period: f64, units: &Units) -> String {
-    let per_time = |of: Measured| of.scaled(1.0 / units.time());
-    let names = ["larger exponent", "smaller exponent", "their sum"];
-    let exponents = names.into_iter().zip(found.exponents.iter().copied().chain([found.sum]));
-    let told = Told {
-        motion: format!("{}: {}", found.motion.label(), meaning(&found.motion)),
-        time: if units.si { "second" } else { "unit of time" },
-        exponents: exponents.map(|(name, of)| (name.to_owned(), per_time(of))).collect(),
-        period: Some(period * units.time()),
-        impacts_per_period: Some(found.impact_rate.scaled(period)),
-        dimensions: found.section_dimension.zip(found.flow_dimension),
-        space: "x, v and phase",
-        grounds: grounds(found, units),
-    };
-    told.text()
-}
-
-/// The same of a machine.
-pub(crate) fn of_machine(found: &Exponents<Machine>, of: &AnswerOf<MachineSource>) -> String {
-    let machine = &of.system;
-    let ended = matches!(found.grounds, Grounds::Undecided { .. });
-    let exponents = found.exponents.iter().filter(|_| !ended).enumerate();
-    let period = machine.period().filter(|_| !ended);
-    let told = Told {
-        motion: format!("{}: {}", found.motion.label(), MachineSource::meaning(of, &found.motion)),
-        time: "unit of time",
-        exponents: exponents.map(|(k, of)| (format!("exponent {}", k + 1), *of)).collect(),
-        period: machine.period(),
-        impacts_per_period: period.map(|period| found.impact_rate.scaled(period)),
-        dimensions: found.section_dimension.zip(found.flow_dimension),
-        space: "coordinates, velocities and phase",
-        grounds: match found.grounds {
-            Grounds::Undecided { .. } => "the motion ended before".to_owned(),
-            Grounds::Measured { time, .. } => format!("measured over a time of {}", short(time)),
-            _ => "exact: those of a cycle, or of a motion without further events".to_owned(),
-        },
-    };
-    told.text()
-}
-
-fn grounds(found: &Exponents, units: &Units) -> String {
+fn grounds<S: System>(found: &Exponents<S>, units: &Units) -> String {
     match found.grounds {
         Grounds::Measured { impacts, transient, time, blocks } => {
             let mut text = format!(

@@ -74,7 +74,7 @@ fn text_of<D: Teller>(of: &AnswerOf<D>) -> Result<String, Failure> {
             map::text(found, starts, D::two_stops(of)) + &seen
         }
         Results::Diagram(found) => diagram::text(found, units),
-        Results::Lyapunov(found, _) => D::exponents_told(of, found),
+        Results::Lyapunov(found, _) => lyapunov::text(of, found),
         Results::Branch(found) => branch::text(&of.branches(found)?, machine, (&of.cut()?, units)),
         Results::Curve(found) => curve::text(&of.curve(found)?, (&of.curve_plan()?, units)),
         Results::Region(found) => {

@@ -5,13 +5,12 @@ use crate::report::words::{
     self, ROUNDING_DECIDES, ROUNDING_GROWS, by_stop, counted_word, meaning, quantities as quantities_of_oscillator,
     table,
 };
-use crate::report::{basin, lyapunov, margins, orbit, region, settle, simulate};
+use crate::report::{basin, margins, orbit, region, settle, simulate};
 use core::fmt::Write;
-use vibroimpact::chaos::{Exponents, Measured, Spectrum};
+use vibroimpact::chaos::{Measured, Spectrum};
 use vibroimpact::continuation::{SolutionPoint, machine};
 use vibroimpact::events::{End, Event, EventKind};
 use vibroimpact::machine::{Machine, StopLaw};
-use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::quantities::machine::{Part, Quantities as PartQuantities};
 use vibroimpact::quantities::{Quantity, machine_cycle_quantities, machine_quantities, of_verdict};
@@ -39,15 +38,19 @@ pub(super) trait Teller: Told {
     /// The impacts on each of several stops in brackets, after a blank; empty where the label says it.
     fn by_stop(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> String;
 
-    fn multipliers(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> Option<Vec<Multiplier>>;
-
     /// A quantity with its unit; a dash where it is not defined.
     fn quantity_text(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>, quantity: Quantity) -> String;
 
     /// The events of a cycle, one row each.
     fn events_text(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> String;
 
-    fn stability_words(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> Option<&'static str>;
+    /// The stability, where it is known, or known to be open.
+    fn stability_words(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> Option<&'static str> {
+        let stability = verdict.stability(&of.system);
+        let known = stability.is_some() || !Self::multipliers(of, verdict).is_empty();
+        let free = Self::machine(of).is_none() && matches!(verdict, Verdict::NoImpact(_));
+        known.then(|| words::in_words(stability, free, matches!(verdict, Verdict::Chaotic(_))))
+    }
 
     /// The quantities that matter most.
     fn quantities_text(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> String;
@@ -60,9 +63,8 @@ pub(super) trait Teller: Told {
         let mut text = format!("{}{}: {}\n", verdict.label(), Self::by_stop(of, verdict), Self::meaning(of, verdict));
         text.push_str(&Self::events_text(of, verdict));
         if let Some(stability) = Self::stability_words(of, verdict) {
-            let multipliers = Self::multipliers(of, verdict).filter(|all| !all.is_empty());
-            let told =
-                multipliers.map_or_else(String::new, |all| format!("; multipliers {}", words::multipliers(&all)));
+            let multipliers = words::multipliers(&Self::multipliers(of, verdict));
+            let told = if multipliers.is_empty() { multipliers } else { format!("; multipliers {multipliers}") };
             let _ = writeln!(text, "  {stability}{told}");
         }
         text.push_str(&Self::quantities_text(of, verdict));
@@ -84,9 +86,6 @@ pub(super) trait Teller: Told {
 
     /// An orbit; without one why there is none.
     fn orbit_text(of: &AnswerOf<Self>, orbit: Option<&Orbit<CycleOf<Self>>>) -> String;
-
-    /// Exponents, and how they were obtained.
-    fn exponents_told(of: &AnswerOf<Self>, found: &Exponents<Self::System>) -> String;
 
     /// Whether regions are known in closed form.
     fn in_closed_form(_: &RegionPlan<Self::Name>) -> bool {
@@ -129,10 +128,6 @@ impl Teller for SystemPlan {
         by_stop(verdict, &of.system)
     }
 
-    fn multipliers(of: &AnswerOf<Self>, verdict: &Verdict) -> Option<Vec<Multiplier>> {
-        verdict.multipliers(&of.system).map(Vec::from)
-    }
-
     fn quantity_text(of: &AnswerOf<Self>, verdict: &Verdict, quantity: Quantity) -> String {
         of_verdict(&of.system, verdict).map_or_else(|| "-".into(), |all| of.units.text(&all, quantity))
     }
@@ -140,13 +135,6 @@ impl Teller for SystemPlan {
     fn events_text(of: &AnswerOf<Self>, verdict: &Verdict) -> String {
         let Verdict::Periodic(cycle) = verdict else { return String::new() };
         words::impacts(cycle, &of.system, &of.units)
-    }
-
-    fn stability_words(of: &AnswerOf<Self>, verdict: &Verdict) -> Option<&'static str> {
-        let stability = verdict.stability(&of.system);
-        let known = stability.is_some() || verdict.multipliers(&of.system).is_some();
-        let (free, chaotic) = (matches!(verdict, Verdict::NoImpact(_)), matches!(verdict, Verdict::Chaotic(_)));
-        known.then(|| words::in_words(stability, free, chaotic))
     }
 
     fn quantities_text(of: &AnswerOf<Self>, verdict: &Verdict) -> String {
@@ -181,10 +169,6 @@ impl Teller for SystemPlan {
 
     fn orbit_text(of: &AnswerOf<Self>, orbit: Option<&Orbit>) -> String {
         orbit::of_oscillator(of, orbit)
-    }
-
-    fn exponents_told(of: &AnswerOf<Self>, found: &Exponents) -> String {
-        lyapunov::text(found, of.system.period(), &of.units)
     }
 
     fn in_closed_form(plan: &RegionPlan) -> bool {
@@ -229,10 +213,6 @@ impl Teller for MachineSource {
         if said { format!(" ({})", counts.join(", ")) } else { String::new() }
     }
 
-    fn multipliers(_: &AnswerOf<Self>, verdict: &Verdict<Machine>) -> Option<Vec<Multiplier>> {
-        if let Verdict::Periodic(cycle) = verdict { Some(cycle.multipliers.clone()) } else { None }
-    }
-
     fn quantity_text(of: &AnswerOf<Self>, verdict: &Verdict<Machine>, quantity: Quantity) -> String {
         let all = machine_quantities(&of.system, verdict);
         let value = all.map_or(f64::NAN, |all| largest(&all, &of.system, quantity));
@@ -242,12 +222,6 @@ impl Teller for MachineSource {
     fn events_text(of: &AnswerOf<Self>, verdict: &Verdict<Machine>) -> String {
         let Verdict::Periodic(cycle) = verdict else { return String::new() };
         events_of_cycle(&of.system, cycle)
-    }
-
-    fn stability_words(of: &AnswerOf<Self>, verdict: &Verdict<Machine>) -> Option<&'static str> {
-        let chaotic = matches!(verdict, Verdict::Chaotic(_));
-        let stability = verdict.stability(&of.system);
-        stability.map(|stability| words::in_words(Some(stability), false, chaotic))
     }
 
     fn quantities_text(of: &AnswerOf<Self>, verdict: &Verdict<Machine>) -> String {
@@ -310,10 +284,6 @@ impl Teller for MachineSource {
 
     fn orbit_text(of: &AnswerOf<Self>, orbit: Option<&Orbit<Cycle>>) -> String {
         orbit.map_or_else(String::new, |orbit| Self::told(of, &Verdict::Periodic(orbit.cycle.clone())))
-    }
-
-    fn exponents_told(of: &AnswerOf<Self>, found: &Exponents<Machine>) -> String {
-        lyapunov::of_machine(found, of)
     }
 
     fn because(of: &AnswerOf<Self>, point: &machine::SolutionPoint) -> String {

@@ -1,6 +1,6 @@
 //! Tests of `vibro branch`: points, events and texts.
 
-use crate::{json, number, printed, refused, vibro};
+use crate::{json, machine_file, number, printed, refused, vibro};
 use serde_json::{Value, json};
 
 /// Begins below the flip of 1/1 on the line 1/beta = 1.11.
@@ -281,8 +281,6 @@ fn the_branches_at_a_branch_point() {
 /// Two equal masses side by side, driven alike, strike their stops at the same time where the gaps are equal: both are named.
 #[test]
 fn a_corner_names_both_stops() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("pair.toml");
     let text = r#"
 [machine]
 bodies = { a = 1, b = 1 }
@@ -298,7 +296,7 @@ stop = [
   { name = "two", at = "b", gap = 0.4, restitution = 0.6 },
 ]
 "#;
-    std::fs::write(&file, text).unwrap();
+    let (_folder, file) = machine_file(text);
     let answer = json(&format!("branch --machine {} --vary stop.one.gap --to 0.6", file.display()));
     let corner = &events(&answer, "corner")[0];
     assert!((number(&corner["parameter"]) - 0.4).abs() < 1e-9, "{corner}");
@@ -338,20 +336,6 @@ fn ever_more_impacts() {
     assert!(text.contains(
         "chatter: impacts are added without end, towards a rest on the stop at phase 3.51709; beyond, inf/1"
     ));
-}
-
-/// The same line in physical units: the unit of length is 5 mm, that of velocity 0.1 m/s.
-#[test]
-fn a_machine_in_physical_units() {
-    let machine =
-        "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --omega-rad-per-s 18 --gap-m 0.0075 --restitution 0.5";
-    let si = json(&format!("branch {machine} --units si --label 1/1 --vary gap --to 0.0125"));
-    let plain = json("branch --beta 0.9 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5");
-    let flip = |answer: &Value| number(&events(answer, "flip")[0]["parameter"]);
-    assert!((flip(&si) - 0.005 * flip(&plain)).abs() < 1e-14);
-    let velocity = |answer: &Value| number(&answer["branches"][0]["points"][0]["cycle"][0]["speed"]);
-    assert!((velocity(&si) - 0.1 * velocity(&plain)).abs() < 1e-12);
-    assert_eq!(si["to"], 0.0125);
 }
 
 /// Along a line through two parameters each event has both values. It is an event in the gap alone at the same

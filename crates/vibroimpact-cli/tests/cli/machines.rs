@@ -1,6 +1,6 @@
 //! Machines: the catalogue, files, changed numbers, schematics, refusals.
 
-use crate::{json, printed, refused};
+use crate::{json, machine_file, printed, refused};
 use std::collections::BTreeSet;
 use std::fs;
 use vibroimpact_study::Plan;
@@ -33,9 +33,7 @@ fn printed_machines_are_files() {
     assert!(written.contains("beta = 20.0") && written.contains("[set]\n\"stop.plate.preload\" = 0.5\n"), "{written}");
     let text = printed(line);
     assert!(text.contains(expansion.split("[machine]").nth(1).unwrap()), "{text}");
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("mine.toml");
-    fs::write(&file, written).unwrap();
+    let (_folder, file) = machine_file(&written);
     assert_eq!(printed(&format!("machine show {} --toml", file.display())), expansion);
 }
 
@@ -123,11 +121,9 @@ fn a_machine_begins_where_its_file_says() {
 /// The phase of the command line is that of the start, 0 too; what is not given is that of the file.
 #[test]
 fn a_start_is_that_of_the_command_line_or_of_the_file() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("a.toml");
     let text = "[start]\nq = { a = 0.25 }\nphase = 1\n[machine]\nbodies = { a = 1 }\nfrequency = 1\n\
         force = [{ at = \"a\", sin = 1 }]\nstop = [{ name = \"s\", at = \"a\", gap = 1, restitution = 0.5 }]\n";
-    fs::write(&file, text).unwrap();
+    let (_folder, file) = machine_file(text);
     let start =
         |flags: &str| json(&format!("simulate --machine {} --impacts 1 {flags}", file.display()))["start"].clone();
     assert_eq!(start(""), serde_json::json!({"q": [0.25], "qdot": [0.0], "phase": 1.0}));

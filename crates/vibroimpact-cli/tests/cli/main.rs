@@ -93,5 +93,13 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
+/// A machine file in a folder of its own.
+fn machine_file(machine: &str) -> (tempfile::TempDir, std::path::PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("machine.toml");
+    std::fs::write(&path, machine).expect("it can be written");
+    (folder, path)
+}
+
 /// S of the 1971 paper, where two motions coexist.
 const S: &str = "--inverse-beta 1.3 --gap 0.75 --restitution 0.5";

@@ -1,10 +1,9 @@
 //! Stability in three words, rests that name their stops, and how far chaos was seen.
 
-use crate::{json, printed};
+use crate::{json, machine_file, printed};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::PathBuf;
 
 /// An elastic ball between a wall and a moving wall.
 const BALL: &str = r#"
@@ -99,14 +98,6 @@ damping = 16.39
 opening = "position"
 "#;
 
-/// A folder with a machine file, and the way to it.
-fn file(machine: &str) -> (tempfile::TempDir, PathBuf) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("machine.toml");
-    fs::write(&path, machine).expect("it can be written");
-    (folder, path)
-}
-
 /// The cells of a column of a table.
 fn column(table: &str, name: &str) -> Vec<String> {
     let mut rows = table.lines().map(|row| row.split(','));
@@ -126,7 +117,7 @@ fn kinds(branch: &Value) -> Vec<&str> {
 /// 42.5: of 87 points of this branch 33 were called stable, with torus events between them.
 #[test]
 fn an_elliptic_family_is_neutral() {
-    let (folder, path) = file(BALL);
+    let (folder, path) = machine_file(BALL);
     let line = format!("--machine {}", path.display());
     let orbits = json(&format!("orbit {line} --label 2/1"));
     let words: Vec<_> =
@@ -177,7 +168,7 @@ fn an_elastic_oscillator_is_neutral_or_unstable() {
 /// 42.8: rests on different stops were one motion.
 #[test]
 fn rests_name_their_stops() {
-    let (folder, path) = file(SLIDER);
+    let (folder, path) = machine_file(SLIDER);
     let line = format!("--machine {}", path.display());
     let settled = json(&format!("settle {line} --q=-3,0"));
     let motion = &settled["motion"];
@@ -237,7 +228,7 @@ fn rests_of_maps_name_their_stops() {
 /// 42.9: chaos is followed to the end of the budget, and how far stands beside the word.
 #[test]
 fn chaos_says_how_far_it_was_seen() {
-    let (folder, path) = file(LONG);
+    let (folder, path) = machine_file(LONG);
     // how long chaos lasts from a start depends on rounding errors: one from which it lasts long
     let starts = (0..40).map(|k| -0.1479 + 1e-3 * f64::from(k));
     let lines = starts.map(|q| format!("--machine {} --q={q},-0.0759,0.2969", path.display()));

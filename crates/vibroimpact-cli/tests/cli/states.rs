@@ -1,6 +1,6 @@
 //! Whole states of machines: motions go on from what a command printed; and what is refused of machines.
 
-use crate::{json, printed, ran, refused};
+use crate::{json, machine_file, printed, ran, refused};
 use serde_json::Value;
 use std::fs;
 
@@ -21,9 +21,8 @@ friction = [{ name = "guide", at = "other", sliding = 0.1, static = 0.15 }]
 /// The motion from the state of each printed event has the same printed events after it, to the last digit.
 #[test]
 fn a14_motions_go_on_from_printed_states() {
-    let folder = tempfile::tempdir().unwrap();
-    let (machine, run) = (folder.path().join("pads.toml"), folder.path().join("run.json"));
-    fs::write(&machine, PADS).unwrap();
+    let (folder, machine) = machine_file(PADS);
+    let run = folder.path().join("run.json");
     let simulate = format!("simulate --machine {}", machine.display());
     let found = json(&format!("{simulate} --impacts 40"));
     fs::write(&run, found.to_string()).unwrap();
@@ -58,9 +57,8 @@ fn a14_motions_go_on_from_printed_states() {
 /// The state of a settled motion is one of the motion: it has the same cycle.
 #[test]
 fn a14_settled_states_are_whole() {
-    let folder = tempfile::tempdir().unwrap();
-    let (machine, run) = (folder.path().join("pads.toml"), folder.path().join("run.json"));
-    fs::write(&machine, PADS).unwrap();
+    let (folder, machine) = machine_file(PADS);
+    let run = folder.path().join("run.json");
     let found = json(&format!("settle --machine {}", machine.display()));
     let state = &found["motion"]["state"];
     assert!(state["contacts"]["pad"].is_object() && state["exact"].is_object(), "{state}");
@@ -77,9 +75,7 @@ fn a14_settled_states_are_whole() {
 /// Tables say how far surfaces stand back, and what stops and joints do.
 #[test]
 fn a14_tables_have_states() {
-    let folder = tempfile::tempdir().unwrap();
-    let machine = folder.path().join("pads.toml");
-    fs::write(&machine, PADS).unwrap();
+    let (_folder, machine) = machine_file(PADS);
     let line = format!("simulate --machine {} --impacts 20 --csv -", machine.display());
     let table = printed(&line);
     assert!(
@@ -123,9 +119,8 @@ fn states_of(table: &str, coordinates: &[&str], contacts: &[&str]) -> Vec<(f64, 
 /// The rows of a table after events are states from which the motion goes on to the last bit.
 #[test]
 fn a14_motions_go_on_from_rows_of_tables() {
-    let folder = tempfile::tempdir().unwrap();
-    let (machine, run) = (folder.path().join("pads.toml"), folder.path().join("row.json"));
-    fs::write(&machine, PADS).unwrap();
+    let (folder, machine) = machine_file(PADS);
+    let run = folder.path().join("row.json");
     let simulate = format!("simulate --machine {}", machine.display());
     let found = json(&format!("{simulate} --impacts 30"));
     let events: Vec<&Value> =
@@ -170,11 +165,9 @@ fn a14_motions_go_on_from_rows_of_tables() {
 /// exit status is 1; a verdict says how far it looked.
 #[test]
 fn a13_a_search_limit_is_an_end() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("fast.toml");
     let machine = "[machine]\ncoordinates = [\"fast\", \"slow\"]\nmass = [1, 1]\nstiffness = [1e14, 1]\n[[machine.stop]]\n\
         name = \"stop\"\ndirection = [1, 1]\ngap = 0.5\nrestitution = 0.5\n";
-    fs::write(&file, machine).unwrap();
+    let (_folder, file) = machine_file(machine);
     let line = |verb: &str| format!("{verb} --machine {} --q 0.1,0 --qdot 0,0.45", file.display());
     let (code, text, complaint) = ran(".", &line("simulate --time 10000"));
     assert_eq!(code, Some(1), "{text} {complaint}");
@@ -222,11 +215,9 @@ fn a13_what_is_refused() {
 /// A matrix that is symmetric but for rounding is accepted, and is exactly symmetric then.
 #[test]
 fn a13_rounded_matrices_are_made_symmetric() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("rounded.toml");
     let text = "[machine]\ncoordinates = [\"a\", \"b\"]\nmass = [1, 1]\nstiffness = [1, 1]\n\
                 damping = [[2e-3, 1.6e-20], [0, 3e-3]]\n";
-    fs::write(&path, text).unwrap();
+    let (_folder, path) = machine_file(text);
     let shown = json(&format!("machine show {}", path.display()));
     assert_eq!(shown["machine"]["damping"], serde_json::json!([[2e-3, 8e-21], [8e-21, 3e-3]]));
     fs::write(&path, text.replace("1.6e-20", "1.6e-10")).unwrap();

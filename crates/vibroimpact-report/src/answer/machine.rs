@@ -1,27 +1,26 @@
 //! What is told of the answers of a machine.
 
 use super::AnswerOf;
-use super::told::{BasinOf, BranchesOf, CurveOf, Told};
-use crate::json::branch::{BranchAnswer, BranchObject};
-use crate::json::curve::CurveAnswer;
+use super::told::{BranchesOf, Told};
+use crate::json::branch::{self, Along, EventOf};
+use crate::json::curve;
 use crate::json::event::StateObject;
-use crate::json::lyapunov::LyapunovAnswer;
 use crate::json::motion::MotionObject;
 use crate::json::orbit::OrbitObject;
-use crate::json::settle::SettleAnswer;
 use crate::json::simulate::Events;
 use crate::json::system::SystemObject;
 use crate::response::ResponseView;
-use crate::scene::{self, BifurcationDiagram, View};
+use crate::scene::{self, View};
+use crate::table::remarks::Remark;
 use crate::{AnswerError, BranchQuantity, ReportError, Table, Units, figure, table};
 use vibroimpact::chaos::Exponents;
-use vibroimpact::continuation::machine::SolutionPoint;
+use vibroimpact::continuation::machine::{CurvePoint, SolutionPoint};
 use vibroimpact::events::{Event, Motion, Start};
 use vibroimpact::machine::Machine;
+use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::machine::Cycle;
-use vibroimpact::verdict::{Census, Settled, Verdict};
+use vibroimpact::verdict::{Settled, Verdict};
 use vibroimpact_plot::{Figure, plain};
-use vibroimpact_study::diagram::Shown as _;
 use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{
     CurvePlan, Cut, Orbit, PlanError, ResponseCurves, SectionPoints, Simulated, Task, motion_limits,
@@ -46,6 +45,11 @@ impl AnswerOf<MachineSource> {
             _ => PERIODS * self.system.period().ok_or_else(none)?,
         };
         Ok((from, time))
+    }
+
+    /// The title of the figure of a motion.
+    fn title(&self, verdict: &Verdict<Machine>) -> String {
+        format!("{}: {}", self.written.title(&self.name, &self.units, &[]), figure::label(&verdict.label()))
     }
 
     /// The waveform of a motion from a state over a time.
@@ -84,6 +88,18 @@ impl Told for MachineSource {
         MotionObject::of_machine(&of.system, verdict)
     }
 
+    fn multipliers(_: &AnswerOf<Self>, verdict: &Verdict<Machine>) -> Vec<Multiplier> {
+        Self::cycle_of_machine(verdict).map_or_else(Vec::new, |cycle| cycle.multipliers.clone())
+    }
+
+    fn cycle_of_machine(verdict: &Verdict<Machine>) -> Option<&Cycle> {
+        if let Verdict::Periodic(cycle) = verdict { Some(cycle) } else { None }
+    }
+
+    fn remark(verdict: &Verdict<Machine>) -> Remark {
+        (verdict.closed(), verdict.seen_events())
+    }
+
     fn orbit<'a>(of: &'a AnswerOf<Self>, orbit: &'a Orbit<Cycle>) -> OrbitObject<'a> {
         OrbitObject::of_machine(&of.system, &orbit.cycle)
     }
@@ -92,30 +108,22 @@ impl Told for MachineSource {
         Events::Machine((&of.system, &of.start), found.until, found.events.len())
     }
 
-    fn settled<'a>(of: &'a AnswerOf<Self>, found: &'a Settled<Machine>, _: bool) -> SettleAnswer<'a> {
-        SettleAnswer::of_machine(&of.system, found)
+    fn shown_on_branches(of: &AnswerOf<Self>, found: &BranchesOf<Self>, cut: &Cut<String>) -> Option<String> {
+        BranchQuantity::of(&of.system, &of.written, cut, found).map(|quantity| quantity.path)
     }
 
-    fn exponents_object<'a>(of: &'a AnswerOf<Self>, found: &'a Exponents<Machine>) -> LyapunovAnswer<'a> {
-        LyapunovAnswer::of_machine(&of.system, found)
-    }
-
-    fn branch_object<'a>(of: &'a AnswerOf<Self>, found: &'a BranchesOf<Self>, cut: &Cut<String>) -> BranchAnswer<'a> {
-        BranchAnswer::of_machine(found, cut, (&of.system, &of.written))
-    }
-
-    fn branch_shown<'a>(
-        of: &'a BifurcationDiagram<Self>,
-        points: &'a [SolutionPoint],
+    fn branch_point<'a>(
+        (written, machine, _): Along<'a, Self>,
+        point: &'a SolutionPoint,
         cut: &Cut<String>,
-    ) -> BranchObject<'a> {
-        let show = &of.behind.plan.show;
-        let quantity = (!show.is_closings()).then(|| BranchQuantity::at_path(show.clone(), &of.written, cut));
-        BranchObject::of_machine(points, None, cut, (&of.system, quantity.as_ref()))
+        show: Option<&String>,
+    ) -> (branch::PointObject<'a>, EventOf<'a>) {
+        let quantity = show.map(|path| BranchQuantity::at_path(path.clone(), written, cut));
+        (branch::PointObject::of_machine(point, machine, cut, quantity.as_ref()), EventOf::Machine(machine))
     }
 
-    fn curve_object<'a>(of: &'a AnswerOf<Self>, found: &'a CurveOf<Self>, plan: &CurvePlan<String>) -> CurveAnswer<'a> {
-        CurveAnswer::of_machine(&of.system, plan, found)
+    fn curve_point<'a>(of: &'a AnswerOf<Self>, point: &'a CurvePoint, _: &CurvePlan<String>) -> curve::PointObject<'a> {
+        curve::PointObject::of_machine(&of.system, point)
     }
 
     fn response<'a>(of: &'a AnswerOf<Self>, found: &'a ResponseCurves) -> Result<ResponseView<'a>, PlanError> {
@@ -150,8 +158,7 @@ impl Told for MachineSource {
 
     fn settled_figure(of: &AnswerOf<Self>, found: &Settled<Machine>, view: View) -> Result<Figure, AnswerError> {
         let (from, time) = of.steady(&found.verdict)?;
-        let title =
-            format!("{}: {}", of.written.title(&of.name, &of.units, &[]), figure::label(&found.verdict.label()));
+        let title = of.title(&found.verdict);
         Ok(match (view, &found.verdict) {
             (View::Waveform, _) => of.waveform(&from, time, title)?,
             (View::Phase, _) => scene::machine_portrait(&of.system, (&from, time), title)?,
@@ -164,18 +171,11 @@ impl Told for MachineSource {
     }
 
     fn section_figure(of: &AnswerOf<Self>, found: &Exponents<Machine>, points: &SectionPoints) -> Figure {
-        let title = format!("{}: {}", of.written.title(&of.name, &of.units, &[]), figure::label(&found.motion.label()));
-        figure::section::of_machine(points, &of.system, title)
+        figure::section::of_machine(points, &of.system, of.title(&found.motion))
     }
 
-    fn simulated_table<'a>(
-        of: &'a AnswerOf<Self>,
-        found: &'a Simulated<Event>,
-        step: Option<f64>,
-    ) -> Result<Table<'a>, ReportError> {
-        let until = found.shown_until;
-        let step = step.unwrap_or_else(|| of.system.period().unwrap_or(0.1 * until) / 100.0);
-        table::waveform::of_machine(&of.system, &of.start, (until, step))
+    fn waveform_table<'a>(of: &'a AnswerOf<Self>, from: &Start, span: (f64, f64)) -> Result<Table<'a>, ReportError> {
+        table::waveform::of_machine(&of.system, from, span)
     }
 
     fn settled_table<'a>(
@@ -187,19 +187,11 @@ impl Told for MachineSource {
             (View::Waveform | View::Phase, verdict) => {
                 let (from, time) = of.steady(verdict)?;
                 let step = of.system.period().unwrap_or(time) / 100.0;
-                table::waveform::of_machine(&of.system, &from, (time, step))
+                Self::waveform_table(of, &from, (time, step))
             }
             (View::Multipliers, Verdict::Periodic(cycle)) => Ok(table::multipliers(&cycle.multipliers)),
             (View::Multipliers, other) => Err(ReportError::NoMultipliers(other.label().into_owned())),
             (View::Sections, _) => Err(ReportError::MachineSections),
         }
-    }
-
-    fn attractors_table<'a>(of: &'a AnswerOf<Self>, found: &'a Census<Machine>) -> Table<'a> {
-        table::attractors::of_machine(&of.system, found)
-    }
-
-    fn basin_table<'a>(of: &'a AnswerOf<Self>, found: &'a BasinOf<Self>) -> Result<Table<'a>, PlanError> {
-        table::basin::of_machine(&of.system, found)
     }
 }

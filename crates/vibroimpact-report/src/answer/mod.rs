@@ -5,7 +5,7 @@ mod oscillator;
 mod told;
 
 pub use told::Told;
-pub(crate) use told::{BranchesOf, CurveOf};
+pub(crate) use told::{BasinOf, BranchesOf, CurveOf};
 
 use crate::figure::branch::Picture;
 use crate::figure::coloured::Coloured;
@@ -329,7 +329,7 @@ impl<D: Told> AnswerOf<D> {
     /// # Errors
     /// As [`Self::cut`].
     pub fn branches<'a>(&'a self, found: &'a BranchesOf<D>) -> Result<BranchAnswer<'a>, PlanError> {
-        Ok(D::branch_object(self, found, &self.cut()?))
+        Ok(BranchAnswer::new(self, found, &self.cut()?))
     }
 
     /// The answer to `vibro curve`.
@@ -337,7 +337,7 @@ impl<D: Told> AnswerOf<D> {
     /// # Errors
     /// As [`Self::cut`].
     pub fn curve<'a>(&'a self, found: &'a CurveOf<D>) -> Result<CurveAnswer<'a>, PlanError> {
-        Ok(D::curve_object(self, found, &self.curve_plan()?))
+        Ok(CurveAnswer::new(self, found, &self.curve_plan()?))
     }
 
     /// The answer to `vibro orbit`.
@@ -352,11 +352,15 @@ impl<D: Told> AnswerOf<D> {
     pub fn table(&self, shown: &Shown) -> Result<Option<Table<'_>>, AnswerError> {
         let (units, view, machine) = (&self.units, shown.view.unwrap_or_default(), D::machine(self));
         Ok(Some(match &self.results {
-            Results::Simulate(found) => D::simulated_table(self, found, shown.step)?,
+            Results::Simulate(found) => {
+                let until = found.shown_until;
+                let step = shown.step.unwrap_or_else(|| D::period(self).unwrap_or(0.1 * until) / 100.0);
+                D::waveform_table(self, &self.start, (until, step))?
+            }
             Results::Settle(found) => D::settled_table(self, found, view)?,
-            Results::Attractors(found) => D::attractors_table(self, found),
+            Results::Attractors(found) => table::attractors::table(self, found),
             Results::Orbit(found) => table::orbits::table(self.orbits(found), machine, units),
-            Results::Basin(found) => D::basin_table(self, found)?,
+            Results::Basin(found) => table::basin::table(self, found)?,
             Results::Map(found) => table::map::table(found, &self.system, (*units, machine.is_some()))?,
             Results::Diagram(found) => table::diagram::table(found, &self.system, *units)?,
             Results::Lyapunov(_, Some(points)) => {

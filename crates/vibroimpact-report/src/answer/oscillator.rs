@@ -4,8 +4,8 @@ use super::AnswerOf;
 use super::told::Told;
 use crate::json::attractors::Area;
 use crate::json::basin::MeasureFields;
-use crate::json::branch::{BranchAnswer, BranchObject};
-use crate::json::curve::CurveAnswer;
+use crate::json::branch::{self, Along, EventOf};
+use crate::json::curve;
 use crate::json::event::StateObject;
 use crate::json::lyapunov::LyapunovAnswer;
 use crate::json::motion::MotionObject;
@@ -14,18 +14,18 @@ use crate::json::settle::SettleAnswer;
 use crate::json::simulate::Events;
 use crate::json::system::SystemObject;
 use crate::response::ResponseView;
-use crate::scene::{BifurcationDiagram, View, Viewed, phase_portrait, strobes};
+use crate::scene::{View, Viewed, phase_portrait};
 use crate::{AnswerError, Asked, ReportError, ShownValue as _, Table, Units, figure, table};
 use vibroimpact::Start;
 use vibroimpact::chaos::Exponents;
-use vibroimpact::continuation::SolutionPoint;
-use vibroimpact::motion::Event;
-use vibroimpact::verdict::{Census, Settled, Verdict};
+use vibroimpact::continuation::{CurvePoint, SolutionPoint};
+use vibroimpact::math::Multiplier;
+use vibroimpact::verdict::{Settled, Verdict};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::diagram::Show;
 use vibroimpact_study::{
-    Basin, Branches, CurvePlan, Cut, EventCurve, Name as _, Orbit, Parameter, PlanError, ResponseCurves, SectionPoints,
-    Simulated, SystemPlan, Task,
+    Basin, CurvePlan, Cut, Name as _, Orbit, Parameter, PlanError, ResponseCurves, SectionPoints, Simulated,
+    SystemPlan, Task,
 };
 
 impl AnswerOf<SystemPlan> {
@@ -37,6 +37,10 @@ impl AnswerOf<SystemPlan> {
 }
 
 impl Told for SystemPlan {
+    fn period(of: &AnswerOf<Self>) -> Option<f64> {
+        Some(of.system.period())
+    }
+
     fn system(of: &AnswerOf<Self>) -> SystemObject<'_> {
         let parameter = |vary: &str| Parameter::from_name(vary);
         let varied: Vec<Parameter> = match &of.plan.task {
@@ -74,6 +78,10 @@ impl Told for SystemPlan {
         MotionObject::of_oscillator(verdict, &of.system, &of.units)
     }
 
+    fn multipliers(of: &AnswerOf<Self>, verdict: &Verdict) -> Vec<Multiplier> {
+        verdict.multipliers(&of.system).map_or_else(Vec::new, Vec::from)
+    }
+
     fn orbit<'a>(of: &'a AnswerOf<Self>, orbit: &'a Orbit) -> OrbitObject<'a> {
         OrbitObject::of_oscillator(orbit, &of.system, &of.units)
     }
@@ -83,14 +91,11 @@ impl Told for SystemPlan {
     }
 
     fn settled<'a>(of: &'a AnswerOf<Self>, found: &'a Settled, brief: bool) -> SettleAnswer<'a> {
-        if brief {
-            return SettleAnswer::brief(found, &of.system, &of.units);
-        }
-        SettleAnswer::of_oscillator(found, (&of.system, &of.start), of.paper_rule, &of.units)
+        if brief { SettleAnswer::brief(of, found) } else { SettleAnswer::of_oscillator(of, found) }
     }
 
     fn exponents_object<'a>(of: &'a AnswerOf<Self>, found: &'a Exponents) -> LyapunovAnswer<'a> {
-        LyapunovAnswer::of_oscillator(found, &of.system, &of.units)
+        LyapunovAnswer::of_oscillator(of, found)
     }
 
     fn area(of: &AnswerOf<Self>) -> Option<Area> {
@@ -101,23 +106,18 @@ impl Told for SystemPlan {
         MeasureFields::of(found)
     }
 
-    fn branch_object<'a>(of: &'a AnswerOf<Self>, found: &'a Branches, cut: &Cut) -> BranchAnswer<'a> {
-        BranchAnswer::of_oscillator(found, cut, &of.asked())
+    fn branch_point<'a>(
+        (system, _, units): Along<'a, Self>,
+        point: &'a SolutionPoint,
+        cut: &Cut,
+        show: Option<&Show>,
+    ) -> (branch::PointObject<'a>, EventOf<'a>) {
+        let asked = Asked { system: *system, units: *units };
+        (branch::PointObject::of_oscillator(point, cut, &asked, show), EventOf::Oscillator(point))
     }
 
-    fn branch_shown<'a>(of: &'a BifurcationDiagram<Self>, points: &'a [SolutionPoint], cut: &Cut) -> BranchObject<'a> {
-        let asked = Asked { system: of.written, units: of.units };
-        let mut branch = BranchObject::of_oscillator(points, None, cut, &asked);
-        if of.behind.plan.show == Show::Strobe {
-            for (object, point) in branch.points.iter_mut().zip(points) {
-                object.strobes = strobes(point, cut, &asked);
-            }
-        }
-        branch
-    }
-
-    fn curve_object<'a>(of: &'a AnswerOf<Self>, found: &'a EventCurve, plan: &CurvePlan) -> CurveAnswer<'a> {
-        CurveAnswer::of_oscillator(found, plan, &of.asked())
+    fn curve_point<'a>(of: &'a AnswerOf<Self>, point: &'a CurvePoint, plan: &CurvePlan) -> curve::PointObject<'a> {
+        curve::PointObject::of_oscillator(point, plan, &of.asked())
     }
 
     fn response<'a>(of: &'a AnswerOf<Self>, found: &'a ResponseCurves) -> Result<ResponseView<'a>, PlanError> {
@@ -151,25 +151,12 @@ impl Told for SystemPlan {
         figure::section::figure(points, &of.system, &of.asked())
     }
 
-    fn simulated_table<'a>(
-        of: &'a AnswerOf<Self>,
-        found: &'a Simulated<Event>,
-        step: Option<f64>,
-    ) -> Result<Table<'a>, ReportError> {
-        let step = step.unwrap_or(of.system.period() / 100.0);
-        table::waveform::table(&of.system, of.start, (found.shown_until, step), of.units)
+    fn waveform_table<'a>(of: &'a AnswerOf<Self>, from: &Start, span: (f64, f64)) -> Result<Table<'a>, ReportError> {
+        table::waveform::table(&of.system, *from, span, of.units)
     }
 
     fn settled_table<'a>(of: &'a AnswerOf<Self>, found: &'a Settled, view: View) -> Result<Table<'a>, ReportError> {
         Ok(Viewed::new(view, (&of.system, of.start), found, &of.asked())?.table()?.kept())
-    }
-
-    fn attractors_table<'a>(of: &'a AnswerOf<Self>, found: &'a Census) -> Table<'a> {
-        table::attractors::table(found, &of.system, &of.units)
-    }
-
-    fn basin_table<'a>(of: &'a AnswerOf<Self>, found: &'a Basin) -> Result<Table<'a>, PlanError> {
-        table::basin::table(found, &of.units)
     }
 }
 

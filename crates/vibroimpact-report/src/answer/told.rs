@@ -3,8 +3,8 @@
 use super::AnswerOf;
 use crate::json::attractors::Area;
 use crate::json::basin::MeasureFields;
-use crate::json::branch::{BranchAnswer, BranchObject};
-use crate::json::curve::CurveAnswer;
+use crate::json::branch::{self, Along, EventOf};
+use crate::json::curve;
 use crate::json::event::{StateObject, Stops};
 use crate::json::lyapunov::LyapunovAnswer;
 use crate::json::motion::MotionObject;
@@ -13,11 +13,14 @@ use crate::json::settle::SettleAnswer;
 use crate::json::simulate::Events;
 use crate::json::system::SystemObject;
 use crate::response::ResponseView;
-use crate::scene::{BifurcationDiagram, View};
+use crate::scene::View;
+use crate::table::remarks::Remark;
 use crate::{AnswerError, FieldName, ReportError, ShownValue, Table, Units, Varied};
 use vibroimpact::chaos::Exponents;
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::{Census, Settled, Verdict};
+use vibroimpact::math::Multiplier;
+use vibroimpact::orbit::machine::Cycle;
+use vibroimpact::verdict::{Settled, Verdict};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::{
     Basin, Branches, CurvePlan, Cut, CycleOf, Dynamics, EventCurve, Orbit, PlanError, PointOf, ResponseCurves,
@@ -43,6 +46,11 @@ pub trait Told:
         None
     }
 
+    /// The period of the forcing, nondimensional of an oscillator; `None` without forcing.
+    fn period(of: &AnswerOf<Self>) -> Option<f64> {
+        Self::machine(of)?.period()
+    }
+
     /// The system, without the numbers that vary.
     fn system(of: &AnswerOf<Self>) -> SystemObject<'_>;
 
@@ -58,6 +66,19 @@ pub trait Told:
     /// A motion.
     fn motion<'a>(of: &'a AnswerOf<Self>, verdict: &'a Verdict<Self::System>) -> MotionObject<'a>;
 
+    /// The Floquet multipliers of a motion; none if it has none.
+    fn multipliers(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> Vec<Multiplier>;
+
+    /// The cycle of a motion of a machine.
+    fn cycle_of_machine(_: &Verdict<Self::System>) -> Option<&Cycle> {
+        None
+    }
+
+    /// What is said of a motion of a machine beside its label.
+    fn remark(_: &Verdict<Self::System>) -> Remark {
+        Remark::default()
+    }
+
     /// An orbit with a label.
     fn orbit<'a>(of: &'a AnswerOf<Self>, orbit: &'a Orbit<CycleOf<Self>>) -> OrbitObject<'a>;
 
@@ -65,10 +86,14 @@ pub trait Told:
     fn events<'a>(of: &'a AnswerOf<Self>, found: &'a Simulated<Self::Event>) -> Events<'a>;
 
     /// A settled motion; a brief one is without what takes longest to compute.
-    fn settled<'a>(of: &'a AnswerOf<Self>, found: &'a Settled<Self::System>, brief: bool) -> SettleAnswer<'a>;
+    fn settled<'a>(of: &'a AnswerOf<Self>, found: &'a Settled<Self::System>, _brief: bool) -> SettleAnswer<'a> {
+        SettleAnswer::brief(of, found)
+    }
 
     /// Exponents.
-    fn exponents_object<'a>(of: &'a AnswerOf<Self>, found: &'a Exponents<Self::System>) -> LyapunovAnswer<'a>;
+    fn exponents_object<'a>(of: &'a AnswerOf<Self>, found: &'a Exponents<Self::System>) -> LyapunovAnswer<'a> {
+        LyapunovAnswer::new(of, found)
+    }
 
     /// The box of scattered starts, if there is one.
     fn area(_: &AnswerOf<Self>) -> Option<Area> {
@@ -80,26 +105,25 @@ pub trait Told:
         None
     }
 
-    /// Branches along a line.
-    fn branch_object<'a>(
-        of: &'a AnswerOf<Self>,
-        found: &'a BranchesOf<Self>,
-        cut: &Cut<Self::Name>,
-    ) -> BranchAnswer<'a>;
+    /// What is shown of each cycle on branches of a system that has no speeds of closings.
+    fn shown_on_branches(_: &AnswerOf<Self>, _: &BranchesOf<Self>, _: &Cut<Self::Name>) -> Option<Self::Shown> {
+        None
+    }
 
-    /// A branch of a bifurcation diagram, with what it shows of each cycle.
-    fn branch_shown<'a>(
-        of: &'a BifurcationDiagram<Self>,
-        points: &'a [PointOf<Self>],
+    /// A point of a branch, with what a diagram shows of its cycle, and what an event there happens to.
+    fn branch_point<'a>(
+        along: Along<'a, Self>,
+        point: &'a PointOf<Self>,
         cut: &Cut<Self::Name>,
-    ) -> BranchObject<'a>;
+        show: Option<&Self::Shown>,
+    ) -> (branch::PointObject<'a>, EventOf<'a>);
 
-    /// A curve of events.
-    fn curve_object<'a>(
+    /// A point of a curve of events.
+    fn curve_point<'a>(
         of: &'a AnswerOf<Self>,
-        found: &'a CurveOf<Self>,
+        point: &'a Self::CurvePoint,
         plan: &CurvePlan<Self::Name>,
-    ) -> CurveAnswer<'a>;
+    ) -> curve::PointObject<'a>;
 
     /// A response.
     fn response<'a>(of: &'a AnswerOf<Self>, found: &'a ResponseCurves) -> Result<ResponseView<'a>, PlanError>;
@@ -123,11 +147,11 @@ pub trait Told:
     /// The figure of both sections of an attractor.
     fn section_figure(of: &AnswerOf<Self>, found: &Exponents<Self::System>, points: &SectionPoints) -> Figure;
 
-    /// The waveform of a motion, with this time between its points.
-    fn simulated_table<'a>(
+    /// The waveform of the motion from a state over a time, with this time between its points.
+    fn waveform_table<'a>(
         of: &'a AnswerOf<Self>,
-        found: &'a Simulated<Self::Event>,
-        step: Option<f64>,
+        from: &Self::Start,
+        span: (f64, f64),
     ) -> Result<Table<'a>, ReportError>;
 
     /// The table of a settled motion.
@@ -136,10 +160,4 @@ pub trait Told:
         found: &'a Settled<Self::System>,
         view: View,
     ) -> Result<Table<'a>, ReportError>;
-
-    /// The table of attractors.
-    fn attractors_table<'a>(of: &'a AnswerOf<Self>, found: &'a Census<Self::System>) -> Table<'a>;
-
-    /// The table of a basin.
-    fn basin_table<'a>(of: &'a AnswerOf<Self>, found: &'a BasinOf<Self>) -> Result<Table<'a>, PlanError>;
 }

@@ -237,16 +237,17 @@ fn between(a: &TrackPoint, b: &TrackPoint) -> Look {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Asked, Units};
+    use crate::Units;
+    use crate::json::branch::Along;
     use vibroimpact::continuation::{Branch, BranchOptions, Direction, SolutionPoint};
     use vibroimpact::orbit::{FindOptions, find};
     use vibroimpact::{Label, Oscillator, Parameter};
     use vibroimpact_study::{Cut, SecondStop, SystemPlan};
 
     /// The branch of an oscillator with these points.
-    fn with_points(points: &[SolutionPoint], vary: Parameter, system: SystemPlan) -> BranchObject<'_> {
+    fn with_points<'a>(points: &'a [SolutionPoint], vary: Parameter, along: Along<'a, SystemPlan>) -> BranchObject<'a> {
         let cut = Cut { vary: vary.into(), ends: (0.0, 1.0), also: None };
-        BranchObject::of_oscillator(points, None, &cut, &Asked { system, units: Units::default() })
+        BranchObject::new::<SystemPlan>(along, (points, None), &cut, None)
     }
 
     /// A cycle that sticks on both stops: the impacts of each chatter are identified even if the number of impacts
@@ -262,7 +263,8 @@ mod tests {
         let second_stop = Some(SecondStop { gap: 0.25, restitution: 0.5 });
         let system =
             SystemPlan { inverse_beta: Some(2.5), gap: 0.25, restitution: 0.5, second_stop, ..SystemPlan::default() };
-        let branch = with_points(&points, Parameter::SecondGap, system);
+        let units = Units::default();
+        let branch = with_points(&points, Parameter::SecondGap, (&system, &osc, &units));
         let [one, two] = [branch.points.first(), branch.points.last()].map(|point| speeds(point.unwrap()).1);
         assert!(one.len() != two.len() && one.iter().filter(|place| place.1 == 0).count() == 2, "{one:?}");
         let curves = Track::of(&branch, Shown::Speeds)[0].curves();
@@ -281,8 +283,9 @@ mod tests {
             let (range, options) = (gap..=to, BranchOptions::default());
             let branch = Branch::new(&osc, &orbit.cycle, Parameter::Gap, range, Direction::Up, options).unwrap();
             let points: Vec<SolutionPoint> = branch.collect();
-            let system = SystemPlan::from_inverse_beta(inverse, gap, 0.5);
-            let curves = Track::of(&with_points(&points, Parameter::Gap, system), Shown::Speeds)[0].curves();
+            let (system, units) = (SystemPlan::from_inverse_beta(inverse, gap, 0.5), Units::default());
+            let curves =
+                Track::of(&with_points(&points, Parameter::Gap, (&system, &osc, &units)), Shown::Speeds)[0].curves();
             for (xs, ys) in curves.values() {
                 for pair in xs.iter().zip(ys).collect::<Vec<_>>().windows(2) {
                     let step = (pair[1].1 - pair[0].1).abs();

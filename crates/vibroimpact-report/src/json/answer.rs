@@ -45,14 +45,10 @@ impl<D: Told> Serialize for Written<'_, D> {
             Results::Settle(found) => document(of, D::settled(of, found, brief)).serialize(to),
             Results::Attractors(found) => {
                 let seed = if let Task::Attractors { seed, .. } = &plan.task { *seed } else { 0 };
-                let answer = AttractorsAnswer::new(found, seed, |verdict| D::motion(of, verdict), D::area(of));
-                document(of, answer).serialize(to)
+                document(of, AttractorsAnswer::new(of, found, seed)).serialize(to)
             }
             Results::Orbit(found) => document(of, of.orbits(found)).serialize(to),
-            Results::Basin(found) => {
-                let answer = BasinAnswer::new(found, units, |verdict| D::motion(of, verdict), D::measures(found));
-                document(of, answer).serialize(to)
-            }
+            Results::Basin(found) => document(of, BasinAnswer::new(of, found)).serialize(to),
             Results::Map(found) => {
                 // points that are no grid have one start each
                 let sequence = if let Task::Map(task) = &plan.task { (task.starts, task.seed) } else { (1, 0) };
@@ -71,10 +67,7 @@ impl<D: Told> Serialize for Written<'_, D> {
                 document(of, ResponseAnswer::new(&view)).serialize(to)
             }
             Results::Edge(found) => document(of, EdgeAnswer::new(of, found)).serialize(to),
-            Results::Margins(found) => {
-                let motion = D::motion(of, &found.motion);
-                document(of, MarginsAnswer::new(found, system, motion, units)).serialize(to)
-            }
+            Results::Margins(found) => document(of, MarginsAnswer::new(of, found)).serialize(to),
         }
     }
 }

@@ -1,12 +1,13 @@
 //! The attractors to which scattered starts lead, and their shares.
 
 use super::certainty::Certainty;
-use super::motion::{MotionObject, SharedMotion};
+use super::motion::SharedMotion;
 use crate::Units;
+use crate::answer::{AnswerOf, Told};
 use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
-use vibroimpact::verdict::{Census, StartBox, System, Verdict};
+use vibroimpact::verdict::{Census, StartBox};
 
 /// The answer to `vibro attractors`.
 #[derive(JsonSchema, Serialize)]
@@ -43,18 +44,13 @@ impl Area {
 
 impl<'a> AttractorsAnswer<'a> {
     /// The motions of a sequence of starts.
-    pub(super) fn new<S: System>(
-        census: &'a Census<S>,
-        seed: u64,
-        motion: impl Fn(&'a Verdict<S>) -> MotionObject<'a>,
-        area: Option<Area>,
-    ) -> Self {
+    pub(super) fn new<D: Told>(of: &'a AnswerOf<D>, census: &'a Census<D::System>, seed: u64) -> Self {
         let shared = census.by_share().into_iter().map(|found| SharedMotion {
-            motion: motion(&found.verdict),
+            motion: D::motion(of, &found.verdict),
             share: census.share(found),
             starts: found.count,
         });
         let certainty = Certainty::of(census.by_share().into_iter().map(|found| found.count), census.total());
-        Self { motions: shared.collect(), certainty, starts: census.total(), seed, area }
+        Self { motions: shared.collect(), certainty, starts: census.total(), seed, area: D::area(of) }
     }
 }

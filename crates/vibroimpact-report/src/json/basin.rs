@@ -2,11 +2,10 @@
 
 use super::AxisObject;
 use super::certainty::Certainty;
-use super::motion::{MotionObject, SharedMotion};
-use crate::{Units, Varied};
+use super::motion::SharedMotion;
+use crate::answer::{AnswerOf, BasinOf, Told};
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::verdict::{System, Verdict};
 use vibroimpact_study::Basin;
 
 /// The answer to `vibro basin`. Coordinates on no axis are those of the start.
@@ -77,27 +76,22 @@ impl MeasureFields {
 
 impl<'a> BasinAnswer<'a> {
     /// The motions in order of falling numbers of starts.
-    pub(super) fn new<'b, S: System, V: Varied, F>(
-        found: &'b Basin<S, V, F>,
-        units: &Units,
-        motion: impl Fn(&'b Verdict<S>) -> MotionObject<'a>,
-        measures: Option<MeasureFields>,
-    ) -> Self {
+    pub(super) fn new<D: Told>(of: &'a AnswerOf<D>, found: &'a BasinOf<D>) -> Self {
         let order = found.by_count();
         let mut places = vec![0; order.len()];
         order.iter().enumerate().for_each(|(place, motion)| places[*motion] = place);
         let shared = order.into_iter().map(|m| SharedMotion {
-            motion: motion(&found.motions[m].verdict),
+            motion: D::motion(of, &found.motions[m].verdict),
             share: found.share(m),
             starts: found.motions[m].count,
         });
         Self {
             motions: shared.collect(),
             starts: found.cells.len(),
-            axes: AxisObject::all(&found.plan.axes, units),
+            axes: AxisObject::all(&found.plan.axes, &of.units),
             refused: found.refused(),
             cells: (0..found.cells.len()).map(|k| found.motion(k).map(|number| places[number])).collect(),
-            measures,
+            measures: D::measures(found),
         }
     }
 }

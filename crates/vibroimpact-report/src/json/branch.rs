@@ -1,22 +1,23 @@
 //! Branches of periodic orbits of any system: their points, their events, and the events at which further branches begin.
 
 use super::Pair;
-use super::event::{self, EventObject, side};
+use super::event::{self, EventObject, Stops as _};
 use super::motion::{drift, multipliers};
+use crate::answer::{AnswerOf, BranchesOf, Told};
 use crate::branch_quantity::BranchQuantity;
+use crate::scene::strobes;
 use crate::{Asked, Units, Varied};
 use core::iter::once;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
+use vibroimpact::Label;
 use vibroimpact::continuation::machine;
 use vibroimpact::continuation::{BranchEvent, SolutionPoint};
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::machine::Cycle;
-use vibroimpact::verdict::Stability;
-use vibroimpact::{Label, Side};
-use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::{Branches, Chosen, Cut, Followed, OrbitNumber, Origin, Solution};
+use vibroimpact::verdict::{Stability, System as _};
+use vibroimpact_study::diagram::{Show, ShowText};
+use vibroimpact_study::{Chosen, Cut, Dynamics, Followed, OrbitNumber, Origin, PointOf, Solution as _};
 
 /// The mark of the point from which a branch was followed both ways.
 pub(crate) const START: &str = "start";
@@ -202,24 +203,28 @@ struct TouchObject<'a> {
     phase: Option<f64>,
 }
 
+/// The systems of a branch: as they are written, that of the start, and the units of the results.
+pub type Along<'a, D> = (&'a D, &'a <D as Dynamics>::System, &'a Units);
+
 impl<'a> BranchAnswer<'a> {
-    /// The branches along a line. `branch` returns the branch with these points and this start.
-    fn new<C, P, V: Varied>(
-        found: &'a Branches<C, P>,
-        label: Label,
-        (cut, units): (&Cut<V>, &Units),
-        branch: impl Fn(&'a [P], Option<usize>) -> BranchObject<'a>,
-    ) -> Self {
+    /// The branches along a line.
+    pub(crate) fn new<D: Told>(of: &'a AnswerOf<D>, found: &'a BranchesOf<D>, cut: &Cut<D::Name>) -> Self {
+        let (units, show) = (&of.units, D::shown_on_branches(of, found, cut));
+        let along = (&of.written, &of.system, units);
+        let branch = |points, start| BranchObject::new::<D>(along, (points, start), cut, show.as_ref());
         let unit = cut.vary.unit(units);
-        let origin = |origin: &'a Origin<P>| {
+        let origin = |origin: &'a Origin<PointOf<D>>| {
             let point = branch(core::slice::from_ref(&origin.point), None);
             let (kind, parameter) = point.events.first().map_or(("event", f64::NAN), |at| (at.kind, at.parameter));
             OriginObject { kind, parameter, branch: origin.branch + 1 }
         };
-        let whole =
-            |of: &'a Followed<P>| BranchObject { from: of.origin.as_ref().map(origin), ..branch(&of.points, of.start) };
+        let whole = |of: &'a Followed<PointOf<D>>| BranchObject {
+            from: of.origin.as_ref().map(origin),
+            ..branch(&of.points, of.start)
+        };
+        let path = |show: D::Shown| if let ShowText::Word(path) = show.into() { Some(path) } else { None };
         Self {
-            label: label.to_string(),
+            label: D::System::label(&found.chosen.cycle).to_string(),
             vary: cut.vary.field(units).to_owned(),
             from: cut.ends.0 * unit,
             to: cut.ends.1 * unit,
@@ -228,62 +233,29 @@ impl<'a> BranchAnswer<'a> {
             branches: found.followed.iter().map(whole).collect(),
             stability: found.chosen.stability,
             lost: found.lost.iter().map(origin).collect(),
-            quantity: None,
+            quantity: show.clone().and_then(path),
         }
-    }
-
-    /// Those of an oscillator.
-    pub(crate) fn of_oscillator(found: &'a Branches, cut: &Cut, asked: &Asked) -> Self {
-        let branch = |points, start| BranchObject::of_oscillator(points, start, cut, asked);
-        Self::new(found, found.chosen.cycle.label, (cut, &asked.units), branch)
-    }
-
-    /// Those of a machine.
-    pub(crate) fn of_machine(
-        found: &'a Branches<Cycle, machine::SolutionPoint>,
-        cut: &Cut<String>,
-        (machine, source): (&'a Machine, &MachineSource),
-    ) -> Self {
-        let quantity = BranchQuantity::of(machine, source, cut, found);
-        let branch = |points, start| BranchObject::of_machine(points, start, cut, (machine, quantity.as_ref()));
-        let answer = Self::new(found, found.chosen.cycle.label, (cut, &Units::default()), branch);
-        Self { quantity: quantity.as_ref().map(|quantity| quantity.path.clone()), ..answer }
     }
 }
 
 impl<'a> BranchObject<'a> {
-    /// A branch of an oscillator with these points and this start.
-    pub(crate) fn of_oscillator(points: &'a [SolutionPoint], start: Option<usize>, cut: &Cut, asked: &Asked) -> Self {
-        let objects = points.iter().map(|point| PointObject::of_oscillator(point, cut, asked));
-        Self::new(objects.collect(), start, points, &|stop| side(Side::at(stop)), EventOf::Oscillator)
-    }
-
-    /// A branch of a machine with these points and this start, and a quantity of each.
-    pub(crate) fn of_machine(
-        points: &'a [machine::SolutionPoint],
-        start: Option<usize>,
-        cut: &Cut<String>,
-        (machine, quantity): (&'a Machine, Option<&BranchQuantity<'_>>),
+    /// A branch with these points and this start, and with what a diagram shows of each cycle.
+    pub(crate) fn new<D: Told>(
+        along: Along<'a, D>,
+        (solutions, start): (&'a [PointOf<D>], Option<usize>),
+        cut: &Cut<D::Name>,
+        show: Option<&D::Shown>,
     ) -> Self {
-        let objects = points.iter().map(|point| PointObject::of_machine(point, machine, cut, quantity));
-        Self::new(objects.collect(), start, points, &|place| machine.name_of(place), |_| EventOf::Machine(machine))
-    }
-
-    fn new<P: Solution>(
-        points: Vec<PointObject<'a>>,
-        start: Option<usize>,
-        solutions: &'a [P],
-        name: &dyn Fn(usize) -> &'a str,
-        of: impl Fn(&'a P) -> EventOf<'a>,
-    ) -> Self {
-        let event = |(k, at): (usize, &'a P)| {
+        let objects = solutions.iter().map(|point| D::branch_point(along, point, cut, show));
+        let (points, of): (Vec<_>, Vec<_>) = objects.unzip();
+        let event = |(k, at): (usize, &'a PointOf<D>)| {
             let event = at.event()?;
             // a point at an event has the cycle before it
             let next = if k < start.unwrap_or(0) { k.checked_sub(1) } else { Some(k + 1) };
             let after = at.label_after(|| Some(solutions.get(next?)?.label()));
-            let fields = EventFields::of(event, (at.label(), after), name);
-            let (parameter, values) = (points[k].parameter, points[k].values);
-            Some(BranchEventObject { kind: event.name(), parameter, values, point: k, fields, event, of: of(at) })
+            let fields = EventFields::of(event, (at.label(), after), &|place| along.1.name_of_stop(place));
+            let PointObject { parameter, values, .. } = points[k];
+            Some(BranchEventObject { kind: event.name(), parameter, values, point: k, fields, event, of: of[k] })
         };
         let events: Vec<_> = solutions.iter().enumerate().filter_map(event).collect();
         let begin = events.first().filter(|event| event.point == 0 && start.is_some()).map(|event| event.kind);
@@ -329,9 +301,10 @@ impl PointObject<'_> {
 }
 
 impl PointObject<'static> {
-    fn of_oscillator(point: &SolutionPoint, cut: &Cut, Asked { system, units }: &Asked) -> Self {
-        let (cycle, there) = (&point.cycle, units.at(cut.vary, point.value));
-        let osc = cut.oscillator(system, point.value).ok();
+    pub(crate) fn of_oscillator(point: &SolutionPoint, cut: &Cut, asked: &Asked, show: Option<&Show>) -> Self {
+        let (cycle, units) = (&point.cycle, &asked.units);
+        let there = units.at(cut.vary, point.value);
+        let osc = cut.oscillator(&asked.system, point.value).ok();
         let period = osc.map_or(f64::NAN, |osc| f64::from(cycle.label.periods) * osc.period() * there.time());
         Self {
             parameter: point.value * units.of(cut.vary),
@@ -343,13 +316,14 @@ impl PointObject<'static> {
             stable: point.stable(),
             stability: point.stability().name(),
             admissible: point.physical,
+            strobes: if show == Some(&Show::Strobe) { strobes(point, cut, asked) } else { Vec::new() },
             ..Self::default()
         }
     }
 }
 
 impl<'a> PointObject<'a> {
-    fn of_machine(
+    pub(crate) fn of_machine(
         point: &'a machine::SolutionPoint,
         machine: &'a Machine,
         cut: &Cut<String>,

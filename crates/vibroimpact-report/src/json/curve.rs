@@ -3,16 +3,14 @@
 use super::branch::ChosenObject;
 use super::event::{self, EventObject};
 use super::motion::multipliers;
-use crate::{Asked, Units, Varied};
+use crate::answer::{AnswerOf, CurveOf, Told};
+use crate::{Asked, Varied as _};
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::Label;
-use vibroimpact::continuation::machine;
-use vibroimpact::continuation::{CurvePoint, machine::SolutionPoint};
+use vibroimpact::continuation::{CurvePoint, machine};
 use vibroimpact::machine::Machine;
-use vibroimpact::orbit::machine::Cycle;
-use vibroimpact::verdict::Stability;
-use vibroimpact_study::{CurvePlan, EventCurve};
+use vibroimpact::verdict::{Stability, System as _};
+use vibroimpact_study::{CurvePlan, Solution as _};
 
 /// The answer to `vibro curve`. Pairs of values are in the order of `parameters`.
 #[derive(JsonSchema, Serialize)]
@@ -91,35 +89,25 @@ pub struct CurveEventObject<'a> {
     pub also: Option<&'a str>,
 }
 
-/// Values of both parameters at a point, in the units of the results.
-fn values<V: Varied>((p, q): (f64, f64), plan: &CurvePlan<V>, units: &Units) -> [f64; 2] {
-    [p * plan.vary.parameter.unit(units), q * plan.and.parameter.unit(units)]
-}
-
-/// What the points of a curve are in the answer.
-struct Parts<'a> {
-    found_at: Vec<f64>,
-    points: Vec<PointObject<'a>>,
-    events: Vec<CurveEventObject<'a>>,
-}
-
 impl<'a> CurveAnswer<'a> {
-    fn new<C, E, P, V: Varied>(
-        (found, label): (&EventCurve<C, E, P>, Label),
-        (plan, units): (&CurvePlan<V>, &Units),
-        of: Vec<&'a str>,
-        Parts { found_at, points, events }: Parts<'a>,
-    ) -> Self {
+    pub(crate) fn new<D: Told>(of: &'a AnswerOf<D>, found: &'a CurveOf<D>, plan: &CurvePlan<D::Name>) -> Self {
+        let name = |place: usize| Some(D::machine(of)?.name_of(place));
+        let points: Vec<PointObject<'_>> = found.points.iter().map(|point| D::curve_point(of, point, plan)).collect();
+        let event = |(k, point): (usize, &D::CurvePoint)| {
+            let event = D::curve_event(point)?;
+            let (stop, also) = (event.place().and_then(name), event.also().and_then(name));
+            Some(CurveEventObject { kind: event.name(), values: points[k].values, point: k, stop, also })
+        };
         Self {
-            label: label.to_string(),
+            label: D::System::label(&found.chosen.cycle).to_string(),
             kind: plan.kind.name(),
-            of,
-            parameters: [&plan.vary, &plan.and].map(|stretch| stretch.parameter.field(units).to_owned()),
+            of: found.places.iter().filter_map(|place| name(*place)).collect(),
+            parameters: [&plan.vary, &plan.and].map(|stretch| stretch.parameter.field(&of.units).to_owned()),
             orbit: ChosenObject::new(&found.chosen),
-            found_at,
+            found_at: found.events.iter().map(|event| event.value() * plan.vary.parameter.unit(&of.units)).collect(),
             through: Through { event: found.through + 1, point: found.begin },
+            events: found.points.iter().enumerate().filter_map(event).collect(),
             points,
-            events,
             stability: found.chosen.stability,
         }
     }
@@ -129,48 +117,29 @@ impl<'a> CurveAnswer<'a> {
         let place = self.events.binary_search_by_key(&point, |event| event.point).ok()?;
         Some(&self.events[place])
     }
+}
 
-    pub(crate) fn of_oscillator(found: &EventCurve, plan: &CurvePlan, Asked { system, units }: &Asked) -> Self {
-        let of = [plan.vary.parameter, plan.and.parameter];
-        let event = |(k, point): (usize, &CurvePoint)| {
-            let kind = point.event?.name();
-            Some(CurveEventObject { kind, values: values(point.values, plan, units), point: k, stop: None, also: None })
-        };
-        let point = |point: &CurvePoint| {
-            let there = units.at_both((of[0], of[1]), point.values);
-            let osc = system.with_all(of.into_iter().zip(<[f64; 2]>::from(point.values)));
-            let osc = osc.and_then(|system| system.oscillator()).ok();
-            let periods = f64::from(point.cycle.label.periods);
-            PointObject {
-                values: values(point.values, plan, units),
-                label: point.cycle.label.to_string(),
-                admissible: point.physical,
-                period: osc.map_or(f64::NAN, |osc| periods * osc.period() * there.time()),
-                cycle: osc.map_or_else(Vec::new, |osc| event::of_cycle(&osc, &point.cycle, &there)),
-                multipliers: multipliers(&point.cycle.multipliers),
-                residual: None,
-                touch: None,
-            }
-        };
-        let parts = Parts {
-            found_at: found.events.iter().map(|event| event.value * units.of(plan.vary.parameter)).collect(),
-            points: found.points.iter().map(point).collect(),
-            events: found.points.iter().enumerate().filter_map(event).collect(),
-        };
-        Self::new((found, found.chosen.cycle.label), (plan, units), Vec::new(), parts)
+impl<'a> PointObject<'a> {
+    pub(crate) fn of_oscillator(point: &CurvePoint, plan: &CurvePlan, Asked { system, units }: &Asked) -> Self {
+        let (of, (p, q)) = ([plan.vary.parameter, plan.and.parameter], point.values);
+        let there = units.at_both((of[0], of[1]), point.values);
+        let osc = system.with_all(of.into_iter().zip([p, q]));
+        let osc = osc.and_then(|system| system.oscillator()).ok();
+        let periods = f64::from(point.cycle.label.periods);
+        PointObject {
+            values: [p * units.of(of[0]), q * units.of(of[1])],
+            label: point.cycle.label.to_string(),
+            admissible: point.physical,
+            period: osc.map_or(f64::NAN, |osc| periods * osc.period() * there.time()),
+            cycle: osc.map_or_else(Vec::new, |osc| event::of_cycle(&osc, &point.cycle, &there)),
+            multipliers: multipliers(&point.cycle.multipliers),
+            residual: None,
+            touch: None,
+        }
     }
 
-    pub(crate) fn of_machine(
-        machine: &'a Machine,
-        plan: &CurvePlan<String>,
-        found: &'a EventCurve<Cycle, SolutionPoint, machine::CurvePoint>,
-    ) -> Self {
-        let event = |(k, point): (usize, &machine::CurvePoint)| {
-            let event = point.event?;
-            let [stop, also] = [event.place(), event.also()].map(|place| place.map(|place| machine.name_of(place)));
-            Some(CurveEventObject { kind: event.name(), values: point.values.into(), point: k, stop, also })
-        };
-        let point = |point: &'a machine::CurvePoint| PointObject {
+    pub(crate) fn of_machine(machine: &'a Machine, point: &'a machine::CurvePoint) -> Self {
+        PointObject {
             values: point.values.into(),
             label: point.cycle.label.to_string(),
             admissible: true,
@@ -179,13 +148,6 @@ impl<'a> CurveAnswer<'a> {
             multipliers: multipliers(&point.cycle.multipliers),
             residual: Some(point.residual),
             touch: point.touch,
-        };
-        let parts = Parts {
-            found_at: found.events.iter().map(|event| event.value).collect(),
-            points: found.points.iter().map(point).collect(),
-            events: found.points.iter().enumerate().filter_map(event).collect(),
-        };
-        let of = found.places.iter().map(|place| machine.name_of(*place)).collect();
-        Self::new((found, found.chosen.cycle.label), (plan, &Units::default()), of, parts)
+        }
     }
 }

@@ -2,12 +2,11 @@
 
 use super::event::side;
 use super::motion::{Estimate, HorizonObject, MotionObject};
-use crate::Units;
+use crate::answer::{AnswerOf, Told};
 use schemars::JsonSchema;
 use serde::Serialize;
-use vibroimpact::Oscillator;
-use vibroimpact::chaos::{Exponents, Grounds, Measured};
-use vibroimpact::machine::Machine;
+use vibroimpact::chaos::{Exponents, Grounds};
+use vibroimpact_study::SystemPlan;
 
 /// The answer to `vibro lyapunov`.
 #[derive(JsonSchema, Serialize)]
@@ -57,44 +56,14 @@ enum GroundsObject {
 }
 
 impl<'a> LyapunovAnswer<'a> {
-    pub(crate) fn of_oscillator(found: &'a Exponents, osc: &Oscillator, units: &Units) -> Self {
-        let per_time = |of: Measured| Estimate::from(of.scaled(1.0 / units.time()));
-        let identity = found.identity / units.time();
-        Self {
-            motion: MotionObject::of_oscillator(&found.motion, osc, units).without_lyapunov(),
-            exponents: Some(found.exponents.iter().map(|of| per_time(*of)).collect()),
-            exponents_per_period: Some(
-                found.exponents.iter().map(|of| Estimate::from(of.scaled(osc.period()))).collect(),
-            ),
-            exact: found.exact(),
-            sum: Some(per_time(found.sum)),
-            identity: identity.is_finite().then_some(identity),
-            impacts_per_period: Some(Estimate::from(found.impact_rate.scaled(osc.period()))),
-            dimension: Dimensions {
-                section: found.section_dimension.map(Estimate::from),
-                flow: found.flow_dimension.map(Estimate::from),
-            },
-            grounds: match found.grounds {
-                Grounds::Measured { impacts, transient, time, blocks } => {
-                    Some(GroundsObject::Measured { impacts, transient, time: time * units.time(), blocks })
-                }
-                Grounds::Flight(why) => Some(GroundsObject::NoImpact { horizon: HorizonObject::new(&why) }),
-                Grounds::Sticks(at) => Some(GroundsObject::Sticks { stop: side(at) }),
-                Grounds::Stuck(at) => Some(GroundsObject::Stuck { stop: side(at) }),
-                Grounds::Touches(why) => Some(GroundsObject::Touches { horizon: HorizonObject::new(&why) }),
-                Grounds::Undecided { impacts } => Some(GroundsObject::Undecided { impacts }),
-                Grounds::Exact => None,
-            },
-        }
-    }
-
-    pub(crate) fn of_machine(machine: &'a Machine, found: &'a Exponents<Machine>) -> Self {
-        let known = !matches!(found.grounds, Grounds::Undecided { .. });
-        let period = machine.period().filter(|_| known);
+    /// Those of any system. A machine whose motion ended before has none.
+    pub(crate) fn new<D: Told>(of: &'a AnswerOf<D>, found: &'a Exponents<D::System>) -> Self {
+        let known = D::machine(of).is_none() || !matches!(found.grounds, Grounds::Undecided { .. });
+        let period = D::period(of).filter(|_| known);
         let all = |factor: f64| found.exponents.iter().map(|of| Estimate::from(of.scaled(factor))).collect();
         Self {
-            motion: MotionObject::of_machine(machine, &found.motion),
-            exponents: known.then(|| all(1.0)),
+            motion: D::motion(of, &found.motion),
+            exponents: known.then(|| all(1.0 / of.units.time())),
             exponents_per_period: period.map(all),
             impacts_per_period: period.map(|period| Estimate::from(found.impact_rate.scaled(period))),
             exact: found.exact(),
@@ -105,6 +74,30 @@ impl<'a> LyapunovAnswer<'a> {
                 flow: found.flow_dimension.map(Estimate::from),
             },
             grounds: None,
+        }
+    }
+
+    /// With what is known of an oscillator only. Its motion is without the less precise exponent of the verdict.
+    pub(crate) fn of_oscillator(of: &'a AnswerOf<SystemPlan>, found: &'a Exponents) -> Self {
+        let (any, time) = (Self::new(of, found), of.units.time());
+        let identity = found.identity / time;
+        let grounds = match found.grounds {
+            Grounds::Measured { impacts, transient, time: measured, blocks } => {
+                Some(GroundsObject::Measured { impacts, transient, time: measured * time, blocks })
+            }
+            Grounds::Flight(why) => Some(GroundsObject::NoImpact { horizon: HorizonObject::new(&why) }),
+            Grounds::Sticks(at) => Some(GroundsObject::Sticks { stop: side(at) }),
+            Grounds::Stuck(at) => Some(GroundsObject::Stuck { stop: side(at) }),
+            Grounds::Touches(why) => Some(GroundsObject::Touches { horizon: HorizonObject::new(&why) }),
+            Grounds::Undecided { impacts } => Some(GroundsObject::Undecided { impacts }),
+            Grounds::Exact => None,
+        };
+        Self {
+            motion: any.motion.without_lyapunov(),
+            sum: Some(Estimate::from(found.sum.scaled(1.0 / time))),
+            identity: identity.is_finite().then_some(identity),
+            grounds,
+            ..any
         }
     }
 }

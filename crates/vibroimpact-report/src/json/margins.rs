@@ -4,12 +4,12 @@ use super::branch::EventFields;
 use super::event::Stops;
 use super::motion::MotionObject;
 use crate::Units;
+use crate::answer::{AnswerOf, Told};
 use crate::varied::Varied;
 use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::continuation::BranchEvent;
-use vibroimpact::verdict::System;
-use vibroimpact_study::{MotionBox, MotionMargins, ParameterMargin, Scope, Solution};
+use vibroimpact_study::{MotionBox, MotionMargins, ParameterMargin, PointOf, Scope, Solution};
 
 /// The answer to `vibro margins`.
 #[derive(JsonSchema, Serialize)]
@@ -112,19 +112,15 @@ struct ValueObject<'a> {
 }
 
 impl<'a> MarginsAnswer<'a> {
-    pub(super) fn new<S: System + Stops, V: Varied, P: Solution<System = S>>(
-        found: &'a MotionMargins<S, V, P>,
-        system: &'a S,
-        motion: MotionObject<'a>,
-        units: &'a Units,
-    ) -> Self {
+    pub(super) fn new<D: Told>(of: &'a AnswerOf<D>, found: &'a MotionMargins<D::System, D::Name, PointOf<D>>) -> Self {
+        let (system, units) = (&of.system, &of.units);
         let nearest = found.nearest().map(|(margin, direction, end)| NearestObject {
             parameter: margin.scope.parameter.field(units),
             direction,
             scaled: end.scaled(&margin.scope),
         });
         Self {
-            motion,
+            motion: D::motion(of, &found.motion),
             parameters: found.parameters.iter().map(|margin| ParameterObject::new(margin, system, units)).collect(),
             nearest,
             motion_box: found.motion_box.as_ref().map(|found_box| BoxObject::new(found_box, &found.parameters, units)),

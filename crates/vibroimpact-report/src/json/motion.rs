@@ -11,10 +11,9 @@ use vibroimpact::events::End;
 use vibroimpact::flight::Horizon;
 use vibroimpact::machine::Machine;
 use vibroimpact::math::Multiplier;
-use vibroimpact::orbit::Cycle;
 use vibroimpact::orbit::machine;
 use vibroimpact::quantities::{errors_of_verdict, machine_cycle_quantities, machine_quantities, of_verdict};
-use vibroimpact::verdict::{Chaos, Count, NoImpact, Stability, Undecided, UndecidedCause, Verdict};
+use vibroimpact::verdict::{Chaos, Count, NoImpact, Stability, System, Undecided, UndecidedCause, Verdict};
 use vibroimpact::{Oscillator, Side};
 use vibroimpact_study::ImpactsByStop;
 
@@ -116,9 +115,9 @@ impl Estimate {
     }
 }
 
-/// All exponents of a machine.
-pub(super) fn estimates(spectrum: &Spectrum<Vec<Measured>>) -> Vec<Estimate> {
-    spectrum.exponents.iter().map(|exponent| Estimate::from(*exponent)).collect()
+/// All exponents, in these units.
+fn estimates(spectrum: &Spectrum<impl AsRef<[Measured]>>, units: &Units) -> Vec<Estimate> {
+    spectrum.exponents.as_ref().iter().map(|exponent| Estimate::per_time(*exponent, units)).collect()
 }
 
 /// Chaos before the motion settled.
@@ -131,13 +130,9 @@ pub(super) struct ChaosObject {
 }
 
 impl ChaosObject {
-    pub(crate) fn of_oscillator(chaos: &Chaos, units: &Units) -> Self {
-        let exponents = chaos.spectrum.exponents.map(|exponent| Estimate::per_time(exponent, units));
-        Self { events: Some(chaos.impacts), exponents: exponents.into() }
-    }
-
-    pub(crate) fn of_machine(chaos: &Chaos<Machine>) -> Self {
-        Self { events: None, exponents: estimates(&chaos.spectrum) }
+    /// Of an oscillator, of which there is no `machine`, with the number of the impact.
+    pub(super) fn new<S: System>(chaos: &Chaos<S>, machine: Option<&Machine>, units: &Units) -> Self {
+        Self { events: machine.is_none().then_some(chaos.impacts), exponents: estimates(&chaos.spectrum, units) }
     }
 }
 
@@ -243,14 +238,14 @@ impl MotionObject<'static> {
             },
         }
     }
+}
 
+impl<'a> MotionObject<'a> {
     /// The same without the exponent of the verdict, for a report with a more precise one.
     pub(super) fn without_lyapunov(self) -> Self {
         Self { lyapunov: None, ..self }
     }
-}
 
-impl<'a> MotionObject<'a> {
     /// A cycle of a machine.
     pub(crate) fn of_cycle(machine: &'a Machine, cycle: &'a machine::Cycle) -> Self {
         let counts = machine.stops().iter().zip(&cycle.counts);
@@ -305,12 +300,12 @@ impl<'a> MotionObject<'a> {
             Verdict::Chaotic(Chaos { spectrum, impacts: events, .. }) => Self {
                 quantities_error: found.as_ref().map(|found| quantities::errors_of_machine(machine, found)),
                 lyapunov: spectrum.exponents.first().map(|first| Estimate::from(*first)),
-                exponents: Some(estimates(spectrum)),
+                exponents: Some(estimates(spectrum, &Units::default())),
                 seen_events: Some(*events),
                 ..plain("chaotic")
             },
             Verdict::Undecided(Undecided { why, spectrum, impacts: events }) => Self {
-                exponents: spectrum.as_ref().map(estimates),
+                exponents: spectrum.as_ref().map(|spectrum| estimates(spectrum, &Units::default())),
                 seen_events: Some(*events),
                 why: Some(undecided(*why)),
                 quantities: None,
@@ -390,9 +385,4 @@ pub fn text(verdict: &Verdict, osc: &Oscillator) -> String {
 pub fn horizon(no_impact: &NoImpact) -> String {
     // texts and numbers can always be written as JSON
     serde_json::to_string(&HorizonObject::new(no_impact)).unwrap_or_default()
-}
-
-/// The cycle of an oscillator as a motion.
-pub(super) fn of_oscillator_cycle(cycle: &Cycle, osc: &Oscillator, units: &Units) -> MotionObject<'static> {
-    MotionObject::of_oscillator(&Verdict::Periodic(cycle.clone()), osc, units)
 }

@@ -1,13 +1,14 @@
 //! The orbits with a label: admissible ones and inadmissible solutions of the equations.
 
 use super::event::side;
-use super::motion::{MotionObject, of_oscillator_cycle};
+use super::motion::MotionObject;
 use crate::Units;
 use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::{EarlierContact, machine::Cycle};
+use vibroimpact::verdict::Verdict;
 use vibroimpact_study::Orbit;
 
 /// The answer to `vibro orbit`.
@@ -48,7 +49,7 @@ impl<'a> OrbitObject<'a> {
         Self {
             admissible: orbit.admissible,
             earlier_contact: orbit.earlier.map(earlier),
-            motion: of_oscillator_cycle(&orbit.cycle, osc, units),
+            motion: MotionObject::of_oscillator(&Verdict::Periodic(orbit.cycle.clone()), osc, units),
         }
     }
 

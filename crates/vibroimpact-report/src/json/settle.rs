@@ -3,13 +3,14 @@
 use super::motion::{ChaosObject, MotionObject};
 use super::quantities;
 use crate::Units;
+use crate::answer::{AnswerOf, Told};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
-use vibroimpact::machine::Machine;
 use vibroimpact::quantities::{Harmonic, harmonics, of_transient};
 use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled, Verdict};
 use vibroimpact::{Oscillator, Start};
+use vibroimpact_study::SystemPlan;
 
 /// The answer to `vibro settle`.
 #[derive(Default, JsonSchema, Serialize)]
@@ -88,38 +89,25 @@ struct PaperAnswer {
 }
 
 impl<'a> SettleAnswer<'a> {
-    pub(crate) fn of_oscillator(
-        settled: &'a Settled,
-        (osc, start): (&Oscillator, &Start),
-        paper: Option<(PaperRule, PaperVerdict)>,
-        units: &Units,
-    ) -> Self {
+    /// Without what takes ten times as long as the motion of an oscillator itself: its harmonics and its transient.
+    pub(crate) fn brief<D: Told>(of: &'a AnswerOf<D>, settled: &'a Settled<D::System>) -> Self {
+        let chaos = settled.transient.as_ref();
         Self {
-            harmonics: harmonics_of(&settled.verdict, osc, units),
-            transient: transient_of(settled, osc, start, units),
-            paper_rule: paper.map(|(rule, verdict)| PaperAnswer::new(rule, verdict)),
-            ..Self::brief(settled, osc, units)
-        }
-    }
-
-    /// Without what takes ten times as long as the motion itself: its harmonics and its transient.
-    pub(crate) fn brief(settled: &'a Settled, osc: &Oscillator, units: &Units) -> Self {
-        Self {
-            motion: MotionObject::of_oscillator(&settled.verdict, osc, units),
+            motion: D::motion(of, &settled.verdict),
             events_followed: settled.impacts,
-            time_followed: settled.time * units.time(),
-            chaotic_transient: settled.transient.as_ref().map(|chaos| ChaosObject::of_oscillator(chaos, units)),
+            time_followed: settled.time * of.units.time(),
+            chaotic_transient: chaos.map(|chaos| ChaosObject::new(chaos, D::machine(of), &of.units)),
             ..Self::default()
         }
     }
 
-    pub(crate) fn of_machine(machine: &'a Machine, settled: &'a Settled<Machine>) -> Self {
+    /// The same with these, and with the verdict of the rule of the paper.
+    pub(crate) fn of_oscillator(of: &'a AnswerOf<SystemPlan>, settled: &'a Settled) -> Self {
         Self {
-            motion: MotionObject::of_machine(machine, &settled.verdict),
-            events_followed: settled.impacts,
-            time_followed: settled.time,
-            chaotic_transient: settled.transient.as_ref().map(ChaosObject::of_machine),
-            ..Self::default()
+            harmonics: harmonics_of(&settled.verdict, &of.system, &of.units),
+            transient: transient_of(settled, &of.system, &of.start, &of.units),
+            paper_rule: of.paper_rule.map(|(rule, verdict)| PaperAnswer::new(rule, verdict)),
+            ..Self::brief(of, settled)
         }
     }
 }

@@ -2,68 +2,46 @@
 
 use super::Table;
 use super::cycle::{drifts, numbered, parts};
-use super::quantities::{cells, columns, finite};
+use super::quantities::finite;
 use super::remarks::remarks;
-use crate::Units;
+use crate::FieldName;
+use crate::answer::{AnswerOf, Told};
 use crate::json::motion::multipliers;
 use crate::number::Number;
-use vibroimpact::Oscillator;
-use vibroimpact::machine::Machine;
-use vibroimpact::orbit::machine::Cycle;
-use vibroimpact::quantities::{Quantity, machine_quantities, machine_quantity_paths, of_verdict};
-use vibroimpact::verdict::{Census, Verdict};
+use vibroimpact::verdict::Census;
+use vibroimpact_study::Name;
 
-/// Label, share and number of the starts, real and imaginary part of both multipliers if the motion has any, and all
-/// quantities in these units.
-#[must_use]
-pub fn table(found: &Census, osc: &Oscillator, units: &Units) -> Table<'static> {
-    let row = |motion: &&vibroimpact::verdict::CountedMotion| {
-        let parts = parts(&motion.verdict.multipliers(osc).map_or_else(Vec::new, |both| multipliers(&both)), 2);
-        let quantities = cells(&Quantity::ALL, of_verdict(osc, &motion.verdict), units);
-        format!("{},{},{}{parts}{quantities}", motion.verdict.label(), Number(found.share(motion)), motion.count)
-    };
-    let rows: Vec<String> = found.by_share().iter().map(row).collect();
-    let header = ["label", "share", "starts"].map(str::to_owned).into_iter().chain(numbered(2)).collect::<Vec<_>>();
-    Table::new(format!("{}{}", header.join(","), columns(&Quantity::ALL, units)), rows.into_iter())
-}
-
-/// One row a motion: label, share, starts, counts of each stop, real and imaginary part of all multipliers, the drift of a
-/// machine that can be translated, all quantities by path.
-pub(crate) fn of_machine<'a>(machine: &'a Machine, census: &'a Census<Machine>) -> Table<'a> {
-    let stops = machine.stops().iter().map(|stop| format!("count.{}", stop.name));
-    let paths = machine_quantity_paths(machine);
-    let undefined = vec![f64::NAN; paths.len()];
-    let header =
-        ["label", "share", "starts"].into_iter().map(str::to_owned).chain(stops).chain(numbered(2 * machine.n()));
-    let drifting =
-        census.motions().iter().any(|found| cycle_of(&found.verdict).is_some_and(|cycle| cycle.translations() > 0));
-    let remarks = remarks(census.motions().iter().map(|found| &found.verdict));
-    let header = header.chain(drifts(machine).filter(|_| drifting)).chain(remarks.heads().map(str::to_owned));
-    let header = header.chain(paths).collect::<Vec<_>>().join(",");
+/// The table of `vibro attractors`: label, share, starts, of a machine the counts of each stop, real and imaginary part of all
+/// multipliers if the motion has any, the drift of a machine that can be translated, what stops and events say more of the label, all
+/// quantities.
+pub(crate) fn table<'a, D: Told>(of: &'a AnswerOf<D>, census: &'a Census<D::System>) -> Table<'a> {
+    let (machine, system) = (D::machine(of), &of.system);
+    let (n, stops) = machine.map_or((1, 0), |machine| (machine.n(), machine.stops().len()));
+    let quantities: Vec<D::Quantity> =
+        D::quantity_names(system).iter().filter_map(|name| D::Quantity::of(name).ok()).collect();
+    let cycle_of = |found| D::cycle_of_machine(found).filter(|cycle| cycle.translations() > 0);
+    let drifting = census.motions().iter().any(|found| cycle_of(&found.verdict).is_some());
+    let remarks = remarks::<D>(census.motions().iter().map(|found| &found.verdict));
+    let counts = machine.into_iter().flat_map(|machine| machine.stops()).map(|stop| format!("count.{}", stop.name));
+    let drift = machine.into_iter().flat_map(drifts).filter(|_| drifting);
+    let header: Vec<String> = (["label", "share", "starts"].map(str::to_owned).into_iter().chain(counts))
+        .chain(numbered(2 * n).chain(drift).chain(remarks.heads().map(str::to_owned)))
+        .chain(quantities.iter().map(|quantity| quantity.column(&of.units)))
+        .collect();
     let rows = census.by_share().into_iter().map(move |found| {
         let mut row = format!("{},{},{}", found.verdict.label(), Number(census.share(found)), found.count);
-        let cycle = cycle_of(&found.verdict);
-        let (counts, factors) = (cycle.map(|cycle| &cycle.counts), cycle.map(|cycle| multipliers(&cycle.multipliers)));
-        for k in 0..machine.stops().len() {
-            row.push_str(&counts.map_or_else(|| ",".to_owned(), |counts| format!(",{}", counts[k])));
+        let cycle = D::cycle_of_machine(&found.verdict);
+        for k in 0..stops {
+            row.push_str(&cycle.map_or_else(|| ",".to_owned(), |cycle| format!(",{}", cycle.counts[k])));
         }
-        row.push_str(&parts(&factors.unwrap_or_default(), 2 * machine.n()));
+        row.push_str(&parts(&multipliers(&D::multipliers(of, &found.verdict)), 2 * n));
         if drifting {
-            let undefined = vec![f64::NAN; machine.n()];
-            row.push_str(&finite(cycle.map_or(&undefined, |cycle| &cycle.drift)));
+            row.push_str(&finite(cycle.map_or(&vec![f64::NAN; n], |cycle| &cycle.drift)));
         }
-        row.push_str(&remarks.cells(machine, &found.verdict.closed(), found.verdict.seen_events()));
-        let values = machine_quantities(machine, &found.verdict)
-            .map_or_else(|| undefined.clone(), |found| found.iter().map(|(.., measured)| measured.value).collect());
-        row.push_str(&finite(&values));
-        row
+        row.push_str(&remarks.cells(system, &D::remark(&found.verdict)));
+        let values = D::quantities(system, &found.verdict).unwrap_or_else(|| vec![f64::NAN; quantities.len()]);
+        let scaled = values.iter().zip(&quantities).map(|(value, quantity)| value * quantity.unit(&of.units));
+        row + &finite(&scaled.collect::<Vec<_>>())
     });
-    Table::new(header, rows)
-}
-
-const fn cycle_of(verdict: &Verdict<Machine>) -> Option<&Cycle> {
-    match verdict {
-        Verdict::Periodic(cycle) => Some(cycle),
-        _ => None,
-    }
+    Table::new(header.join(","), rows)
 }

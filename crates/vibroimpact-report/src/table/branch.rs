@@ -1,7 +1,7 @@
 //! Branches of periodic orbits: one row for each point.
 
 use super::Table;
-use super::cycle::{Cells, Columns};
+use super::cycle::Columns;
 use crate::json::branch::{BranchAnswer, PointObject};
 use crate::json::event::fastest;
 use crate::number::Number;
@@ -32,12 +32,7 @@ pub(crate) fn table<'a, V: Varied>(
 fn row(point: &PointObject<'_>, (kind, stop): (&str, &str), columns: &Columns) -> String {
     let values: String = point.values().iter().map(|value| format!("{},", Number(*value))).collect();
     let PointObject { label, admissible, stable, stability, .. } = point;
-    let cells = columns.cells(&Cells {
-        multipliers: &point.multipliers,
-        drift: point.drift.as_ref(),
-        events: &point.cycle,
-        period: point.period,
-    });
+    let cells = columns.cells((&point.cycle, point.period), &point.multipliers, point.drift.as_ref());
     let fastest = Number(fastest(&point.cycle));
     format!("{values}{label},{admissible},{stable},{stability},{kind},{stop},{fastest}{cells}")
 }

@@ -1,7 +1,7 @@
 //! Curves of events in a plane of two parameters: one row for each point.
 
 use super::Table;
-use super::cycle::{Cells, Columns};
+use super::cycle::Columns;
 use crate::json::curve::CurveAnswer;
 use crate::number::Number;
 use crate::{Units, Varied};
@@ -30,12 +30,7 @@ fn row(answer: &CurveAnswer<'_>, k: usize, columns: &Columns, more: bool) -> Str
         let stop = event.and_then(|event| event.stop).unwrap_or_default();
         format!(",{stop},{},{}", cell(point.residual), cell(point.touch))
     });
-    let cycle = columns.cells(&Cells {
-        multipliers: &point.multipliers,
-        drift: None,
-        events: &point.cycle,
-        period: point.period,
-    });
+    let cycle = columns.cells((&point.cycle, point.period), &point.multipliers, None);
     let ([p, q], kind) = (point.values.map(Number), event.map_or("", |event| event.kind));
     format!("{p},{q},{},{},{kind}{}{cycle}", point.label, point.admissible, more.unwrap_or_default())
 }

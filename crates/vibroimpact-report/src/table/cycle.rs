@@ -17,15 +17,6 @@ pub(super) struct Columns {
     period: bool,
 }
 
-/// What the cells of a cycle are written from.
-pub(super) struct Cells<'a> {
-    pub(super) multipliers: &'a [[f64; 2]],
-    /// By the coordinates of a machine that can be translated.
-    pub(super) drift: Option<&'a Map<String, Value>>,
-    pub(super) events: &'a [EventObject<'a>],
-    pub(super) period: f64,
-}
-
 /// The names of the columns of so many multipliers.
 pub(super) fn numbered(multipliers: usize) -> impl Iterator<Item = String> {
     (1..=multipliers).flat_map(|k| [format!("multiplier_{k}_re"), format!("multiplier_{k}_im")])
@@ -63,20 +54,26 @@ impl Columns {
         all.collect::<Vec<_>>().join(",")
     }
 
-    /// The cells of a cycle, each after a comma. Phases, speeds and stops are lists with blanks between.
-    pub(super) fn cells(&self, of: &Cells<'_>) -> String {
+    /// The cells of a cycle with these events and this period, each after a comma. Phases, speeds and stops are lists with blanks
+    /// between. The drift is by the coordinates of a machine that can be translated.
+    pub(super) fn cells(
+        &self,
+        (events, period): (&[EventObject<'_>], f64),
+        multipliers: &[[f64; 2]],
+        drift: Option<&Map<String, Value>>,
+    ) -> String {
         let list = |text: &dyn Fn(&EventObject<'_>) -> String| {
-            format!(",{}", closings(of.events).map(text).collect::<Vec<_>>().join(" "))
+            format!(",{}", closings(events).map(text).collect::<Vec<_>>().join(" "))
         };
-        let mut cells = parts(of.multipliers, self.multipliers);
-        let drift = of.drift.into_iter().flat_map(Map::values).filter_map(Value::as_f64).take(self.drift.len());
+        let mut cells = parts(multipliers, self.multipliers);
+        let drift = drift.into_iter().flat_map(Map::values).filter_map(Value::as_f64).take(self.drift.len());
         drift.for_each(|drift| cells.push_str(&format!(",{}", Number(drift))));
         // without forcing there is no phase
         cells.push_str(&list(&|closing| Number(closing.phase.unwrap_or(0.0)).to_string()));
         cells.push_str(&list(&|closing| Number(closing.speed).to_string()));
         cells.push_str(&list(&|closing| closing.stop.to_owned()));
         if self.period {
-            cells.push_str(&format!(",{}", Number(of.period)));
+            cells.push_str(&format!(",{}", Number(period)));
         }
         cells
     }

@@ -22,7 +22,7 @@ pub fn table<'a, V: Varied, F: FieldName>(
     (units, remarked): (Units, bool),
 ) -> Result<Table<'a>, PlanError> {
     let motions = found.motions().filter(|_| remarked);
-    let remarks = Remarks::of(motions.map(|motion| (motion.stops.as_slice(), motion.seen_events)));
+    let remarks = Remarks::of(motions.map(|motion| (motion.stops.clone(), motion.seen_events)));
     let grid = found.columns.is_empty();
     let axes = &found.axes;
     let values = axes.iter().map(|axis| Ok(shown(&axis.over, axis.vary.unit(&units))?.all()));
@@ -40,7 +40,7 @@ pub fn table<'a, V: Varied, F: FieldName>(
         let there = units_over(&units, axes, &Axis::at(axes, k as u64));
         let row = |motion: &Share| {
             let share = if grid { format!(",{}", Number(motion.share)) } else { String::new() };
-            let remarks = remarks.cells(system, &motion.stops, motion.seen_events);
+            let remarks = remarks.cells(system, &(motion.stops.clone(), motion.seen_events));
             let value =
                 |(k, field): (usize, &F)| motion.quantities.get(k).map_or(f64::NAN, |value| value * field.unit(&there));
             let quantities: Vec<f64> = found.fields.iter().enumerate().map(value).collect();

@@ -1,8 +1,8 @@
 //! Tables with a header, commas, and a line feed after each row. Numbers have the shortest form that reads back as the
 //! same double.
 
-pub mod attractors;
-pub mod basin;
+pub(crate) mod attractors;
+pub(crate) mod basin;
 pub mod bifurcation;
 pub mod branch;
 pub mod curve;
@@ -14,7 +14,7 @@ pub mod margins;
 pub mod orbits;
 mod quantities;
 pub mod region;
-mod remarks;
+pub(crate) mod remarks;
 pub mod response;
 pub mod section;
 pub mod waveform;

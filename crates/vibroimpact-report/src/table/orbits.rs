@@ -1,7 +1,7 @@
 //! The orbits with a label: one row for each.
 
 use super::Table;
-use super::cycle::{Cells, Columns};
+use super::cycle::Columns;
 use crate::Units;
 use crate::json::event::fastest;
 use crate::json::orbit::{OrbitAnswer, OrbitObject};
@@ -16,12 +16,8 @@ pub(crate) fn table<'a>(answer: OrbitAnswer<'a>, machine: Option<&Machine>, unit
     let speed = units.column("fastest", QuantityKind::Velocity);
     let header = format!("orbit,label,admissible,stable,stability,{speed},{}", columns.names());
     let rows = answer.orbits.into_iter().enumerate().map(move |(k, OrbitObject { motion, admissible, .. })| {
-        let cells = columns.cells(&Cells {
-            multipliers: motion.multipliers.as_deref().unwrap_or_default(),
-            drift: None,
-            events: &motion.cycle,
-            period: motion.period.unwrap_or(f64::NAN),
-        });
+        let cycle = (motion.cycle.as_slice(), motion.period.unwrap_or(f64::NAN));
+        let cells = columns.cells(cycle, motion.multipliers.as_deref().unwrap_or_default(), None);
         let (stable, stability) = (admissible && motion.stable == Some(true), motion.stability.unwrap_or_default());
         let (label, fastest) = (motion.label, Number(fastest(&motion.cycle)));
         format!("{},{label},{admissible},{stable},{stability},{fastest}{cells}", k + 1)

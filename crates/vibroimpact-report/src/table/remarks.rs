@@ -1,8 +1,11 @@
 //! What columns say of some motions of machines besides the label.
 
+use crate::answer::Told;
 use crate::json::event::Stops;
-use vibroimpact::machine::Machine;
 use vibroimpact::verdict::Verdict;
+
+/// The stops that stay closed for ever in a motion, and the number of events over which chaos was seen.
+pub(crate) type Remark = (Vec<usize>, Option<u64>);
 
 /// The names of stops with blanks between, after a comma.
 fn stops_of(system: &impl Stops, stops: &[usize]) -> String {
@@ -18,7 +21,7 @@ pub(super) struct Remarks {
 }
 
 impl Remarks {
-    pub(super) fn of<'a>(motions: impl Iterator<Item = (&'a [usize], Option<u64>)>) -> Self {
+    pub(super) fn of(motions: impl Iterator<Item = Remark>) -> Self {
         motions.fold(Self { stops: false, events: false }, |so_far, (stops, events)| Self {
             stops: so_far.stops || !stops.is_empty(),
             events: so_far.events || events.is_some(),
@@ -30,7 +33,7 @@ impl Remarks {
     }
 
     /// The cells of a motion, each after a comma.
-    pub(super) fn cells(self, system: &impl Stops, stops: &[usize], events: Option<u64>) -> String {
+    pub(super) fn cells(self, system: &impl Stops, (stops, events): &Remark) -> String {
         let mut cells = String::new();
         if self.stops {
             cells.push_str(&stops_of(system, stops));
@@ -43,7 +46,6 @@ impl Remarks {
 }
 
 /// The remarks on the motions of a table of verdicts.
-pub(super) fn remarks<'a>(verdicts: impl Iterator<Item = &'a Verdict<Machine>>) -> Remarks {
-    let closed: Vec<(Vec<usize>, Option<u64>)> = verdicts.map(|one| (one.closed(), one.seen_events())).collect();
-    Remarks::of(closed.iter().map(|(stops, events)| (stops.as_slice(), *events)))
+pub(super) fn remarks<'a, D: Told<System: 'a>>(verdicts: impl Iterator<Item = &'a Verdict<D::System>>) -> Remarks {
+    Remarks::of(verdicts.map(D::remark))
 }

@@ -187,10 +187,6 @@ where
         &self.grid
     }
 
-    fn grid_mut(&mut self) -> &mut Grid {
-        &mut self.grid
-    }
-
     fn coordinates(&self) -> Vec<Along> {
         self.of.coordinates()
     }
@@ -217,8 +213,8 @@ where
     }
 
     fn numbered(&self) -> Option<Numbered<'_>> {
-        let unknown = |k: u64| {
-            let tile = self.compute(&self.grid.tile(k), &|| false);
+        let unknown = |block: &Block| {
+            let tile = self.compute(block, &|| false);
             tile.map(|tile| self.leads(&tile).1).unwrap_or_default()
         };
         let (known, stops) = (self.cycles()?, self.of.stops());

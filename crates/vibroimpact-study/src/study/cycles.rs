@@ -9,7 +9,7 @@ use super::stored_motion::{StoredCycle, StoredMotion};
 use super::tables::{Cells, StudyTable, Tiles};
 use crate::Unit;
 use crate::field::{Column, Field};
-use crate::grid::Grid;
+use crate::grid::{Block, Grid};
 use std::collections::BTreeMap;
 use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
@@ -88,6 +88,9 @@ impl Numbered<'_> {
     }
 }
 
+/// What is found of a tile.
+type OfTile<'a, S> = Box<dyn Fn(&Block) -> Census<S> + 'a>;
+
 /// The data needed to number the cycles that the survey has not found.
 pub(crate) struct Numbering<'a, S: System> {
     /// Index of the field that contains the numbers.
@@ -97,7 +100,7 @@ pub(crate) struct Numbering<'a, S: System> {
     /// The names of the stops of a machine.
     pub(super) stops: Vec<String>,
     /// The cycles that only the given tile has found, in the order of their preliminary numbers.
-    pub(super) unknown: Box<dyn Fn(u64) -> Census<S> + 'a>,
+    pub(super) unknown: OfTile<'a, S>,
 }
 
 impl<S: System> Numbering<'_, S>
@@ -125,7 +128,7 @@ where
             let first = own.iter().any(|(n, _)| usize::try_from(*n).is_ok_and(|n| n >= cycles.len()));
             let mut renumbered = Vec::new();
             if renumbers || first {
-                for found in (self.unknown)(k).motions() {
+                for found in (self.unknown)(&grid.tile(k)).motions() {
                     let same = cycles.iter().position(|other| other.same_as(&found.verdict, SAME));
                     renumbered.push(same.unwrap_or_else(|| {
                         cycles.push(found.verdict.clone());

@@ -23,11 +23,8 @@ pub struct Along {
 
 /// A task over a grid: how a tile is computed and stored.
 pub(crate) trait Fill: Send + Sync {
-    /// The grid and its tiles.
+    /// The grid with its usual tiles.
     fn grid(&self) -> &Grid;
-
-    /// The grid, so that its tiles can have other lengths.
-    fn grid_mut(&mut self) -> &mut Grid;
 
     /// The coordinate values of the dimensions that have any.
     fn coordinates(&self) -> Vec<Along>;

@@ -129,10 +129,6 @@ impl<S: Spectra> Fill for LyapunovFill<S> {
         &self.grid
     }
 
-    fn grid_mut(&mut self) -> &mut Grid {
-        &mut self.grid
-    }
-
     fn coordinates(&self) -> Vec<Along> {
         self.of.coordinates()
     }

@@ -197,10 +197,6 @@ impl<M: Mapped> Fill for MapFill<M> {
         &self.grid
     }
 
-    fn grid_mut(&mut self) -> &mut Grid {
-        &mut self.grid
-    }
-
     fn coordinates(&self) -> Vec<Along> {
         self.mapped.coordinates()
     }

@@ -53,6 +53,8 @@ use lyapunov::LyapunovFill;
 /// A plan that fills a grid.
 pub struct Study {
     fill: Box<dyn Fill>,
+    /// The grid and its tiles.
+    grid: Grid,
     /// The numbers of the fields that are stored, among those that are computed.
     kept: Vec<usize>,
 }
@@ -72,15 +74,15 @@ impl Study {
 
     /// The study of a fill, with all its fields.
     fn of(fill: Box<dyn Fill>) -> Self {
-        let kept = (0..fill.fields().len()).collect();
-        Self { fill, kept }
+        let (grid, kept) = (fill.grid().clone(), (0..fill.fields().len()).collect());
+        Self { fill, grid, kept }
     }
 
     /// The same study with tiles of these lengths along the dimensions of its grid, and only the fields that `has` names: as a
     /// store has it that a version with other defaults began.
     #[must_use]
     pub fn with_tiles(mut self, lengths: &[usize], has: impl Fn(&str) -> bool) -> Self {
-        for (dimension, tile) in self.fill.grid_mut().dimensions.iter_mut().zip(lengths) {
+        for (dimension, tile) in self.grid.dimensions.iter_mut().zip(lengths) {
             dimension.tile = (*tile).clamp(1, dimension.count);
         }
         self.kept.retain({
@@ -139,8 +141,8 @@ impl Study {
 
     /// The grid and its tiles.
     #[must_use]
-    pub fn grid(&self) -> &Grid {
-        self.fill.grid()
+    pub const fn grid(&self) -> &Grid {
+        &self.grid
     }
 
     /// The coordinate values of the dimensions that have any.

@@ -190,10 +190,6 @@ impl<S: Swept> Fill for SweepFill<S> {
         &self.grid
     }
 
-    fn grid_mut(&mut self) -> &mut Grid {
-        &mut self.grid
-    }
-
     fn coordinates(&self) -> Vec<Along> {
         let sweep = |values: &[f64]| Along {
             name: "sweep".to_owned(),

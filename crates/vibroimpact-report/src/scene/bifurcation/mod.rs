@@ -16,7 +16,7 @@ use crate::{AnswerError, ReportError, ShownValue, Told, Units};
 use std::collections::BTreeMap;
 use vibroimpact::math::{sort_by, sort_by_key};
 use vibroimpact_plot::Figure;
-use vibroimpact_study::diagram::Diagram;
+use vibroimpact_study::diagram::{Diagram, Shown as _};
 use vibroimpact_study::{Control, Name, PointOf, Span, tiles};
 
 /// Number of values along the line at which motions are searched, if no labels are given.
@@ -108,8 +108,9 @@ impl<D: Told> BifurcationDiagram<D> {
     }
 
     fn objects(&self) -> Vec<BranchObject<'_>> {
-        let cut = self.behind.plan.cut();
-        self.branches.iter().map(|points| D::branch_shown(self, points, &cut)).collect()
+        let (cut, along) = (self.behind.plan.cut(), (&self.written, &self.system, &self.units));
+        let show = Some(&self.behind.plan.show).filter(|show| !show.is_closings());
+        self.branches.iter().map(|points| BranchObject::new::<D>(along, (points, None), &cut, show)).collect()
     }
 }
 
