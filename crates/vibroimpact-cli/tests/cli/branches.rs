@@ -338,6 +338,20 @@ fn ever_more_impacts() {
     ));
 }
 
+/// The same line in physical units: the unit of length is 5 mm, that of velocity 0.1 m/s.
+#[test]
+fn a_machine_in_physical_units() {
+    let machine =
+        "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --omega-rad-per-s 18 --gap-m 0.0075 --restitution 0.5";
+    let si = json(&format!("branch {machine} --units si --label 1/1 --vary gap --to 0.0125"));
+    let plain = json("branch --beta 0.9 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5");
+    let flip = |answer: &Value| number(&events(answer, "flip")[0]["parameter"]);
+    assert!((flip(&si) - 0.005 * flip(&plain)).abs() < 1e-14);
+    let velocity = |answer: &Value| number(&answer["branches"][0]["points"][0]["cycle"][0]["speed"]);
+    assert!((velocity(&si) - 0.1 * velocity(&plain)).abs() < 1e-12);
+    assert_eq!(si["to"], 0.0125);
+}
+
 /// Along a line through two parameters each event has both values. It is an event in the gap alone at the same
 /// frequency.
 #[test]

@@ -106,6 +106,20 @@ fn a_summary_that_can_be_run_again() {
     assert_eq!(scatter["sweeps"][0]["motions"], 24);
 }
 
+/// The same in metres, for a system in physical units equal to S of the paper.
+#[test]
+fn a_machine_in_physical_units() {
+    let machine = "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --omega-rad-per-s 25 --gap-m 0.01 --restitution 0.5";
+    let si =
+        table(&format!("diagram {machine} --units si --vary gap --over 0.005:0.01:2 --direction up --transient 50"));
+    let plain = table("diagram --beta 1.25 --restitution 0.5 --vary gap --over 1:2:2 --direction up --transient 50");
+    assert_eq!(si.len(), plain.len());
+    for (s, p) in si.iter().zip(&plain) {
+        assert!((number(&s[0]) - 0.005 * number(&p[0])).abs() < 1e-15);
+        assert!((number(&s[5]) - 0.1 * number(&p[5])).abs() < 1e-9, "{s:?} {p:?}");
+    }
+}
+
 /// Values that are listed are those of a range, for oscillators and for machines; sweeps rise and fall through them.
 #[test]
 fn listed_values() {

@@ -148,9 +148,19 @@ fn a_region_of_two_coordinates() {
 fn a_region_in_physical_units() {
     // omega_n = 10 rad/s, F/k = 0.02 m
     let machine = "--mass-kg 1 --stiffness-n-per-m 100 --force-n 2 --omega-rad-per-s 9 --gap-m 0.03 --restitution 0.5";
-    let line = format!("region --label 1/1 {machine} --units si --inverse-beta 1.05:1.2 --gap 0.02:0.05 --grid 4");
-    let (si, text) = (json(&line), printed(&line));
-    assert!((number(&si["system"]["scales"]["length_m"]) - 0.02).abs() < 1e-15 && si["system"]["gap"].is_null());
+    let si = json(&format!("region --label 1/1 {machine} --units si --inverse-beta 1.05:1.2 --gap 0.02:0.05 --grid 4"));
+    let plain = json(REGION);
+    assert_eq!((&si["units"], &plain["units"]), (&"si".into(), &"nondimensional".into()));
+    assert!((number(&si["system"]["scales"]["length_m"]) - 0.02).abs() < 1e-15);
+    assert!(plain["system"]["scales"].is_null() && si["system"]["gap"].is_null());
+    let vertices = |answer: &Value| answer["stability"]["polygons"][0]["vertices"].as_array().unwrap().clone();
+    let (si, plain) = (vertices(&si), vertices(&plain));
+    assert_eq!(si.len(), plain.len());
+    for (a, b) in si.iter().zip(&plain) {
+        assert!((number(&a[0]) - number(&b[0])).abs() < 1e-12 && (number(&a[1]) - 0.02 * number(&b[1])).abs() < 1e-13);
+    }
+    let text = format!("region --label 1/1 {machine} --units si --inverse-beta 1.05:1.2 --gap 0.02:0.05 --grid 4");
+    let text = printed(&text);
     assert!(text.starts_with("1/1 over inverse beta from 1.05 to 1.2, gap (m) from 0.02 to 0.05\n"), "{text}");
 }
 
