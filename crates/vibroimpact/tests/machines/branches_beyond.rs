@@ -545,3 +545,20 @@ fn impacts_of_a_chatter_appear_at_folds() {
         assert!(ratio > 0.0 && ratio < 0.3, "{at:?}");
     }
 }
+
+/// The first body strikes the second and a wall at one time. Before, the impact on the wall opens the gap between them; beyond, they
+/// strike first and the wall is struck with another speed: the motion is not continuous there.
+#[test]
+fn two_impacts_change_their_order() {
+    let machine = Machine::new(
+        chain(&[0.7127, 0.6937, 0.89], &[(1.483, 0.0676), (0.9722, 0.0675), (0.5596, 0.044)], 1.354, (-0.2528, 1.3069))
+            .with_stop("between", &[-1.0, 1.0, 0.0], 0.0641, StopLaw::Rigid { restitution: 0.411 })
+            .with_stop("wall", &[-1.0, 0.0, 0.0], 0.8336, StopLaw::Rigid { restitution: 0.157 }),
+    )
+    .unwrap();
+    let cycle = settled(&machine, &Start::default().within_stops(&machine)).unwrap();
+    let found = events(&traced((&machine, "stiffness.a"), &cycle, (1.53, 3.18), Direction::Down));
+    let [.., (corner, at), (end, there)] = found[..] else { panic!("{found:?}") };
+    assert_eq!((corner, end), (BranchEvent::Corner { first: 0, second: 1 }, BranchEvent::Discontinuity), "{found:?}");
+    assert!(at == there && (at - 1.745).abs() < 0.01, "{found:?}");
+}

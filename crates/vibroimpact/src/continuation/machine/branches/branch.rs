@@ -19,7 +19,10 @@ use crate::continuation::branches::{BranchError, BranchOptions, Direction, scale
 use crate::continuation::event::BranchEvent;
 use crate::continuation::trace::driver::{Driver, Path};
 use crate::continuation::trace::tracer::{Step, Tracer, last};
+use crate::machine::StopLaw;
+use crate::math::dot;
 use crate::orbit::{Chatter, MachineFrame, MachineRing, machine::Cycle};
+use crate::regime::Normal;
 use core::ops::RangeInclusive;
 
 /// A branch by the equations of the machine.
@@ -144,6 +147,32 @@ impl EventBranch {
         (closings == together && ring.len() <= 2).then_some(stop)
     }
 
+    /// The corner that it is if an impact appears at the time of another one and no cycle with it exists close by: a contact without
+    /// speed would have one.
+    fn at_one_time(&self, at: &MachineSolution, found: &Difference) -> Option<Difference> {
+        let Difference::Appears { at: event, stop } = *found else { return None };
+        let (machine, ring) = self.tracer.problem.equations.split(&at.w)?;
+        let (normal, place, sizes) = (Normal::new(&machine), ring.place(event), at.known.cycle.as_ref()?.sizes);
+        let second = ring.events[event].guard.place(machine.stops().len());
+        let gap = place.gap(&normal, &place.turns(&normal), stop).0;
+        let corner = Difference::Corner { first: stop, second };
+        (gap.abs() < AT_ONCE * sizes.0 && self.order_matters(at, &corner)).then_some(corner)
+    }
+
+    /// Whether it is a corner of two impacts that lead elsewhere in the other order: both stops are rigid, an impact on one changes
+    /// the speed at the other, and they are not at one place.
+    fn order_matters(&self, at: &MachineSolution, found: &Difference) -> bool {
+        let Difference::Corner { first, second } = *found else { return false };
+        let Some((machine, _)) = self.tracer.problem.equations.split(&at.w) else { return false };
+        let rigid =
+            |stop: usize| matches!(machine.stops().get(stop).map(|stop| &stop.law), Some(StopLaw::Rigid { .. }));
+        let normal = Normal::new(&machine);
+        rigid(first) && rigid(second) && {
+            let along = dot(&normal.directions[first], &normal.directions[second]);
+            along != 0.0 && along * along < ONE_PLACE * normal.squares[first] * normal.squares[second]
+        }
+    }
+
     /// Ends the branch if the structure rests for ever right beyond; returns whether it does.
     pub(super) fn rests(&mut self, at: &MachineSolution) -> bool {
         let found = rest_for_ever(&self.tracer, at);
@@ -179,7 +208,10 @@ impl EventBranch {
         let contact = if next.is_none() { struck(&self.tracer, at, &self.path.options) } else { None };
         let (there, with_contact) = contact.unzip();
         let (at, next) = (there.as_ref().unwrap_or(at), next.or(with_contact));
-        let beyond = || replayed(&self.tracer, at, (&self.path.options, found));
+        // where the motion is not continuous, a cycle a little beyond is another one by chance
+        let kind = self.at_one_time(at, found).unwrap_or(*found);
+        let own = |(_, continues): &(_, bool)| *continues || !self.order_matters(at, &kind);
+        let beyond = || replayed(&self.tracer, at, (&self.path.options, found)).filter(own);
         let Some((next, continues)) = next.map(|next| (next, true)).or_else(beyond) else {
             let next = across(&self.tracer, at, &self.path.options);
             return self.jump(at, found, next);
@@ -222,9 +254,11 @@ impl EventBranch {
     /// Reports an event and goes on with the cycles beyond, which may not continue those before.
     fn jump(&mut self, at: &MachineSolution, found: &Difference, next: Option<(Tracer<MachineProblem>, bool)>) {
         let Some((next, continues)) = next else {
+            let found = &self.at_one_time(at, found).unwrap_or(*found);
             self.add(at, Some(found.event(false)));
             let end = match found {
                 Difference::Rest { joint: true, .. } => BranchEvent::Discontinuity,
+                _ if self.order_matters(at, found) => BranchEvent::Discontinuity,
                 _ => BranchEvent::NoConvergence,
             };
             return self.end(at, end);
@@ -284,6 +318,10 @@ impl EventBranch {
     }
 }
 
+/// A stop is struck at the time of another event if its gap there is less than this part of the largest coordinate.
+const AT_ONCE: f64 = 1e-8;
+/// Above this part of the product of the squares of their lengths, that of two directions is one of parallel ones.
+const ONE_PLACE: f64 = 1.0 - 1e-9;
 /// Numbers that differ by less, in their scale, are those of one change of the events.
 const AGAIN: f64 = 1e-6;
 
