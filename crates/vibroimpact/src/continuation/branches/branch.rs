@@ -9,7 +9,7 @@ use crate::system::{Oscillator, ParameterPath};
 use core::ops::RangeInclusive;
 
 /// A branch: an iterator over its points, including its events. The last point has an event that
-/// [ends](super::BranchEvent::ends) the branch.
+/// [ends](crate::continuation::BranchEvent::ends) the branch.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, Parameter, Label, orbit::{FindOptions, find}};
