@@ -144,6 +144,13 @@ pub struct EventDetail {
     pub labels: (Label, Option<Label>),
 }
 
+impl EventDetail {
+    /// That of an event that belongs to no impact.
+    pub(crate) const fn at(phase: f64, labels: (Label, Option<Label>)) -> Self {
+        Self { impact: None, phase, also: None, labels }
+    }
+}
+
 impl BranchEvent {
     /// Its name in JSON and tables.
     #[must_use]

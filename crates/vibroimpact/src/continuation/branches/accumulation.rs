@@ -55,7 +55,7 @@ impl ImpactBranch {
             return None;
         }
         let before = Label::new(u32::try_from(ring.len()).unwrap_or(u32::MAX), ring.periods);
-        let detail = EventDetail { impact: None, phase: rest.release, also: None, labels: (before, Some(cycle.label)) };
+        let detail = EventDetail::at(rest.release, (before, Some(cycle.label)));
         let event = BranchEvent::Chatter { stop: rest.side.place(), detail: Some(detail) };
         Some(SolutionPoint { value: inside, cycle, physical: true, event: Some(event) })
     }

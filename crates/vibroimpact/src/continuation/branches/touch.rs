@@ -72,7 +72,7 @@ impl ImpactBranch {
             // where the motion without impacts just reaches the stop, all impacts of a longer cycle disappear together
             let next = leaving(self.cycles(), &osc, value, side);
             if next.is_none() {
-                let detail = EventDetail { impact: None, phase, also: None, labels: (before, None) };
+                let detail = EventDetail::at(phase, (before, None));
                 return self.end(at, BranchEvent::LossOfContact { stop: side.place(), detail: Some(detail) });
             }
             next

@@ -243,14 +243,14 @@ impl RestBranch {
         };
         if let Some(rest) = shrunk(&excursion) {
             let (stop, labels) = (rest.side.place(), (cycle.label, None));
-            let detail = EventDetail { impact: None, phase: rest.release, also: None, labels };
+            let detail = EventDetail::at(rest.release, labels);
             let event = BranchEvent::EndOfRest { stop, detail: Some(detail) };
             return Some(FoundEvent { value: inside, event, cycle });
         }
         let beyond = self.excursion_at(outside)?;
         let rest = shrunk(&beyond)?;
         let (before, cycle) = (cycle.label, beyond.cycle()?);
-        let detail = EventDetail { impact: None, phase: rest.release, also: None, labels: (before, Some(cycle.label)) };
+        let detail = EventDetail::at(rest.release, (before, Some(cycle.label)));
         let event = BranchEvent::Chatter { stop: rest.side.place(), detail: Some(detail) };
         Some(FoundEvent { value: outside, event, cycle })
     }

@@ -22,7 +22,7 @@ use crate::continuation::trace::tracer::{Step, Tracer, last};
 use crate::machine::StopLaw;
 use crate::math::dot;
 use crate::orbit::{Chatter, MachineFrame, MachineRing, machine::Cycle};
-use crate::regime::Normal;
+use crate::regime::{Normal, independent};
 use core::ops::RangeInclusive;
 
 /// A branch by the equations of the machine.
@@ -167,9 +167,10 @@ impl EventBranch {
         let rigid =
             |stop: usize| matches!(machine.stops().get(stop).map(|stop| &stop.law), Some(StopLaw::Rigid { .. }));
         let normal = Normal::new(&machine);
-        rigid(first) && rigid(second) && {
-            let along = dot(&normal.directions[first], &normal.directions[second]);
-            along != 0.0 && along * along < ONE_PLACE * normal.squares[first] * normal.squares[second]
+        let both = [first, second];
+        both.into_iter().all(rigid) && {
+            let [one, other] = both.map(|stop| normal.directions[stop].as_slice());
+            dot(one, other) != 0.0 && independent([one, other].into_iter()).len() == both.len()
         }
     }
 
@@ -209,8 +210,8 @@ impl EventBranch {
         let (there, with_contact) = contact.unzip();
         let (at, next) = (there.as_ref().unwrap_or(at), next.or(with_contact));
         // where the motion is not continuous, a cycle a little beyond is another one by chance
-        let kind = self.at_one_time(at, found).unwrap_or(*found);
-        let own = |(_, continues): &(_, bool)| *continues || !self.order_matters(at, &kind);
+        let jumps = || self.order_matters(at, &self.at_one_time(at, found).unwrap_or(*found));
+        let own = |(_, continues): &(_, bool)| *continues || !jumps();
         let beyond = || replayed(&self.tracer, at, (&self.path.options, found)).filter(own);
         let Some((next, continues)) = next.map(|next| (next, true)).or_else(beyond) else {
             let next = across(&self.tracer, at, &self.path.options);
@@ -320,8 +321,6 @@ impl EventBranch {
 
 /// A stop is struck at the time of another event if its gap there is less than this part of the largest coordinate.
 const AT_ONCE: f64 = 1e-8;
-/// Above this part of the product of the squares of their lengths, that of two directions is one of parallel ones.
-const ONE_PLACE: f64 = 1.0 - 1e-9;
 /// Numbers that differ by less, in their scale, are those of one change of the events.
 const AGAIN: f64 = 1e-6;
 

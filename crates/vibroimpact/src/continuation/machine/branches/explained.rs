@@ -136,12 +136,14 @@ pub(super) fn explained(
         _ => true,
     };
     // a contact is freed by the event of another one, or by its own force just before
-    let (here, there) = (freed(before), freed(beyond));
-    let one_sided =
-        || here.iter().find(|pair| !there.contains(pair)).or(there.iter().find(|pair| !here.contains(pair)));
+    let one_sided = || {
+        let (here, there) = (freed(before), freed(beyond));
+        let only_here = here.iter().find(|pair| !there.contains(pair));
+        only_here.or(there.iter().find(|pair| !here.contains(pair))).copied()
+    };
     if !explains
         && old == new
-        && let Some(&(first, second)) = one_sided()
+        && let Some((first, second)) = one_sided()
     {
         return Some(BranchEvent::Corner { first, second });
     }
