@@ -217,10 +217,15 @@ impl EventBranch {
             let next = across(&self.tracer, at, &self.path.options);
             return self.jump(at, found, next);
         };
-        let (ring, other) = (&self.tracer.problem.equations.ring, &next.problem.equations.ring);
-        // a chatter that is complete on one side only
         let event = found.event(turns_back(at, &next));
-        let complete = (0..ring.events.first().map_or(0, |event| event.back.len())).find_map(|stop| {
+        self.go_on(at, event, (next, landing(continues)));
+    }
+
+    /// Where a chatter is complete on one side only, as far as `next` goes on with the cycles beyond: the value at which it is just
+    /// complete.
+    fn completes(&self, at: &MachineSolution, next: &Tracer<MachineProblem>) -> Option<(MachineSolution, BranchEvent)> {
+        let (ring, other) = (&self.tracer.problem.equations.ring, &next.problem.equations.ring);
+        (0..ring.events.first()?.back.len()).find_map(|stop| {
             let (here, there) = (Chatter::count(ring, stop), Chatter::count(other, stop));
             let begins = here < there;
             let (equations, complete) =
@@ -229,9 +234,7 @@ impl EventBranch {
             let mut at = at.clone();
             *at.w.last_mut()? = value;
             Some((at, BranchEvent::Sticking { stop, begins }))
-        });
-        let (at, event) = complete.unwrap_or_else(|| (at.clone(), event));
-        self.go_on(&at, event, (next, landing(continues)));
+        })
     }
 
     /// Changes the number of impacts of chatters in the signature where too much of them is left out, or too little.
@@ -275,6 +278,8 @@ impl EventBranch {
         event: BranchEvent,
         (next, landing): (Tracer<MachineProblem>, Option<BranchEvent>),
     ) {
+        let complete = self.completes(at, &next).unzip();
+        let (at, event) = (complete.0.as_ref().unwrap_or(at), complete.1.unwrap_or(event));
         let turns = turns_back(at, &next);
         let rings = self.tracer.problem.equations.split(&at.w).zip(next.problem.equations.split(&next.here.w));
         let explained = rings.map_or(Some(event), |((_, ring), (_, other))| explained(event, (&ring, &other), turns));
@@ -295,7 +300,7 @@ impl EventBranch {
         }
         self.path.passed.push(now);
         self.add(at, Some(event));
-        if self.goes_back(&next, number) {
+        if self.goes_back(&next, number, event) {
             return self.end(at, BranchEvent::NoConvergence);
         }
         self.exchange(next);
@@ -304,7 +309,7 @@ impl EventBranch {
 
     /// Whether another tracer goes back along what has been followed: with events that were left at the same number, in the other
     /// direction.
-    fn goes_back(&self, next: &Tracer<MachineProblem>, number: f64) -> bool {
+    fn goes_back(&self, next: &Tracer<MachineProblem>, number: f64, event: BranchEvent) -> bool {
         let (ring, rises) = (&next.problem.equations.ring, last(&next.here.tangent) > 0.0);
         let near = AGAIN * self.tracer.problem.equations.scales[0];
         let same = |passed: &&Passed| {
@@ -315,7 +320,19 @@ impl EventBranch {
         // where an impact of a chatter appears and the number turns, what is told is the same, and the cycle is another one
         let (last, others) = self.path.passed.split_last().unzip();
         let turned = last.filter(same).is_some_and(|last: &Passed| last.ring.len() == ring.len());
-        turned || others.into_iter().flatten().any(|passed| same(&passed))
+        turned || others.into_iter().flatten().any(|passed| same(&passed) && undone(passed.event, event))
+    }
+}
+
+/// Whether the second event can be the first one on the way back: what appeared or began then disappears or ends. Impacts that a
+/// chatter gains one after another at folds are closer to each other than events are located otherwise.
+const fn undone(first: BranchEvent, second: BranchEvent) -> bool {
+    use BranchEvent::{Grazing, Holding, Sticking};
+    match (first, second) {
+        (Grazing { appears: one, .. }, Grazing { appears: other, .. })
+        | (Sticking { begins: one, .. }, Sticking { begins: other, .. })
+        | (Holding { begins: one, .. }, Holding { begins: other, .. }) => one != other,
+        _ => true,
     }
 }
 

@@ -32,12 +32,14 @@ const ROUNDING: f64 = 1e-16;
 const SLACK: (f64, f64) = (10.0, 1e3);
 /// The largest relative distance of a ratio from its limit, and the most time left, in a chatter that is nearly complete at its
 /// release.
-const NEAR: f64 = 0.3;
+const NEAR: f64 = 0.5;
 const SOON: f64 = 0.3;
 /// The largest distance from the solution at which the search for the limit begins.
 const MOST: f64 = 2e-2;
 /// A chatter whose function is smaller is complete at its release, too.
 const TOGETHER: f64 = 1e-4;
+/// The value is known to rounding where one impact more changes it by less, in the scale of the number.
+const SETTLED: f64 = 1e-10;
 /// The most impacts that are added to a signature.
 const ADDED: usize = 500;
 /// The most impacts of a chatter by which a signature changes at once.
@@ -239,12 +241,14 @@ impl CompleteChatter {
     pub(super) fn value_of_number(old: &MachineEquations, at: &MachineSolution, stop: usize) -> Option<f64> {
         let (mut machine, mut ring) = old.split(&at.w)?;
         let sizes = at.known.cycle.as_ref()?.sizes;
-        let mut number = last(&at.w);
+        let (mut number, mut change) = (last(&at.w), f64::INFINITY);
         let mut own = Self::shortened(&MachineFrame::new(&machine), &mut ring, stop)?;
         for _ in 0..ADDED {
             let guess = MachineEquations::join(&machine, &ring, [number]);
             let equations = MachineEquations::new((&machine, old.family.clone()), ring, sizes, old.scales);
-            let w = zero_near(&equations, &guess, MOST, |frame, ring| own.value(frame, ring))?;
+            let found = zero_near(&equations, &guess, MOST, |frame, ring| own.value(frame, ring));
+            let Some(w) = found else { break };
+            change = (last(&w) - number).abs();
             number = last(&w);
             (machine, ring) = equations.split(&w)?;
             let frame = MachineFrame::new(&machine);
@@ -252,10 +256,12 @@ impl CompleteChatter {
             if error(&lefts(&frame, &ring, own.chatter)?, decrease) < ROUNDING {
                 return Some(number);
             }
-            let chatter = own.chatter.longer(&frame, &mut ring)?;
-            own = Self::of(&frame, &ring, chatter)?;
+            let longer = own.chatter.longer(&frame, &mut ring);
+            let Some(longer) = longer.and_then(|chatter| Self::of(&frame, &ring, chatter)) else { break };
+            own = longer;
         }
-        None
+        // further impacts are so slow that rounding decides about them
+        (change < SETTLED * old.scales[0]).then_some(number)
     }
 }
 
