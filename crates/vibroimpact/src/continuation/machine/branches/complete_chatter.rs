@@ -38,8 +38,8 @@ const SOON: f64 = 0.3;
 const MOST: f64 = 2e-2;
 /// A chatter whose function is smaller is complete at its release, too.
 const TOGETHER: f64 = 1e-4;
-/// The value is known to rounding where one impact more changes it by less, in the scale of the number.
-const SETTLED: f64 = 1e-10;
+/// The value is known where one impact more changes it by less, in its distance from the solution at which the search begins.
+const SETTLED: f64 = 1e-3;
 /// The most impacts that are added to a signature.
 const ADDED: usize = 500;
 /// The most impacts of a chatter by which a signature changes at once.
@@ -261,7 +261,7 @@ impl CompleteChatter {
             own = longer;
         }
         // further impacts are so slow that rounding decides about them
-        (change < SETTLED * old.scales[0]).then_some(number)
+        (change < SETTLED * (number - last(&at.w)).abs()).then_some(number)
     }
 }
 
