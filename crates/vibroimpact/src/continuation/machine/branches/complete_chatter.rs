@@ -38,8 +38,8 @@ const SOON: f64 = 0.3;
 const MOST: f64 = 2e-2;
 /// A chatter whose function is smaller is complete at its release, too.
 const TOGETHER: f64 = 1e-4;
-/// The value is known where one impact more changes it by less, in its distance from the solution at which the search begins.
-const SETTLED: f64 = 1e-3;
+/// The value is known where one impact more changes it by less than this part of what the impact before it did.
+const SETTLED: f64 = 1e-2;
 /// The most impacts that are added to a signature.
 const ADDED: usize = 500;
 /// The most impacts of a chatter by which a signature changes at once.
@@ -241,14 +241,14 @@ impl CompleteChatter {
     pub(super) fn value_of_number(old: &MachineEquations, at: &MachineSolution, stop: usize) -> Option<f64> {
         let (mut machine, mut ring) = old.split(&at.w)?;
         let sizes = at.known.cycle.as_ref()?.sizes;
-        let (mut number, mut change) = (last(&at.w), f64::INFINITY);
+        let (mut number, mut changes) = (last(&at.w), (0.0, 0.0));
         let mut own = Self::shortened(&MachineFrame::new(&machine), &mut ring, stop)?;
         for _ in 0..ADDED {
             let guess = MachineEquations::join(&machine, &ring, [number]);
             let equations = MachineEquations::new((&machine, old.family.clone()), ring, sizes, old.scales);
             let found = zero_near(&equations, &guess, MOST, |frame, ring| own.value(frame, ring));
             let Some(w) = found else { break };
-            change = (last(&w) - number).abs();
+            changes = (changes.1, (last(&w) - number).abs());
             number = last(&w);
             (machine, ring) = equations.split(&w)?;
             let frame = MachineFrame::new(&machine);
@@ -261,7 +261,7 @@ impl CompleteChatter {
             own = longer;
         }
         // further impacts are so slow that rounding decides about them
-        (change < SETTLED * (number - last(&at.w)).abs()).then_some(number)
+        (changes.1 < SETTLED * changes.0).then_some(number)
     }
 }
 
