@@ -9,7 +9,6 @@
 use super::abreast::{Source, settle_abreast};
 use super::attractors::SAME;
 use super::follow::{Follow, Releases};
-use super::launches;
 use super::options::SettleOptions;
 use super::outcome::Verdict;
 use super::settle::{settle, settle_knowing};
@@ -118,30 +117,9 @@ impl Question<'_> {
             }
             return part;
         };
-        // neighbours mostly have the same impacts, so a processor predicts their branches
-        let first = range.start;
-        match launches::sorted(range.end - first, &|k| start(first + k)) {
-            Some(sorted) => {
-                let launch = |k: usize| (sorted[k].0 as usize, sorted[k].1);
-                self.abreast(batch, range, &launch, (&survey.known, releases, part))
-            }
-            None => {
-                let launch = |k: usize| (k, start(first + k as u64));
-                self.abreast(batch, range, &launch, (&survey.known, releases, part))
-            }
-        }
-    }
-
-    /// Follows the starts in lanes; `launch` gives the place and the start of each in the order in which they are launched.
-    fn abreast(
-        &self,
-        batch: Batch,
-        range: Range<u64>,
-        launch: &dyn Fn(usize) -> (usize, Start),
-        (known, releases, part): (&[(Verdict, TrappingRegion)], Releases, Part),
-    ) -> Part {
-        let (numbers, tick) = (vec![None; known.len()], self.tick);
-        let source = Starts { osc: self.osc, known, numbers, releases, range, launch, next: 0, part, tick };
+        let numbers = vec![None; survey.known.len()];
+        let (osc, known, tick) = (self.osc, &survey.known[..], self.tick);
+        let source = Starts { osc, known, numbers, releases, range, start, next: 0, part, tick };
         settle_abreast(batch, self.options, source).part
     }
 }
@@ -154,8 +132,7 @@ struct Starts<'a> {
     numbers: Vec<Option<usize>>,
     releases: Releases,
     range: Range<u64>,
-    /// The place and the start of each, in the order in which they are launched.
-    launch: &'a dyn Fn(usize) -> (usize, Start),
+    start: &'a dyn Fn(u64) -> Start,
     next: usize,
     part: Part,
     tick: &'a dyn Fn() -> bool,
@@ -168,8 +145,7 @@ impl Source for Starts<'_> {
         (index < self.range.end).then(|| {
             self.next += 1;
             follow.reset();
-            let (place, start) = (self.launch)(next);
-            (place, Launched { system: 0, start })
+            (next, Launched { system: 0, start: (self.start)(index) })
         })
     }
 
@@ -236,7 +212,7 @@ mod tests {
         systems
     }
 
-    /// Starts in no order, which are launched in another order than their own.
+    /// Scattered starts, with the trapping regions of a survey.
     #[test]
     fn scattered() {
         let osc = scenario::S.oscillator();

@@ -9,7 +9,6 @@
 //! | the latest returns, recurrence, chaos: for the oscillator and for machines | `record`, `recurrence`, `recurring` |
 //! | what is particular to machines | [`machine`] |
 //! | many starts side by side: of one oscillator, of several; what both need | [`settle_many`], [`settle_each`], `abreast`, `settlement` |
-//! | the order in which many starts are launched | `launches` |
 //! | neighbourhoods of cycles that no motion leaves | `trapping_region` |
 //! | ever gentler impacts: the limit without impacts | [`graze_limit`] |
 //! | the rule of the 1971 paper | [`paper_rule`] |
@@ -20,7 +19,6 @@ mod attractors;
 mod each;
 mod follow;
 pub mod graze_limit;
-mod launches;
 pub mod machine;
 mod many;
 mod options;
