@@ -62,31 +62,3 @@ pub fn rest(osc: &Oscillator, side: Side, phase: f64) -> Rest {
         Rest::Until { time: 0.0, phase: release }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn releases_where_the_force_changes_sign() {
-        for gap in [-0.95, -0.5, 0.0, 0.5, 0.99] {
-            let osc = Oscillator::new(0.7, gap, 0.5).unwrap().with_second_stop(1.5, 0.5).unwrap();
-            let Rest::Until { time, phase } = rest(&osc, Side::Upper, 1.5) else { panic!() };
-            assert!((phase - (PI - gap.asin())).abs() < 1e-15);
-            assert!((phase - 1.5 - 0.7 * time).abs() < 1e-14);
-            assert!(pressure(&osc, Side::Upper, phase).abs() < 1e-15);
-            assert!(pressure(&osc, Side::Upper, phase - 1e-3) > 0.0);
-        }
-        let pressed = Oscillator::new(0.7, -1.0, 0.5).unwrap();
-        assert_eq!(rest(&pressed, Side::Upper, 0.3), Rest::Forever);
-    }
-
-    #[test]
-    fn the_lower_stop_is_the_mirror_image() {
-        let osc = Oscillator::new(0.7, 2.0, 0.5).unwrap().with_second_stop(0.3, 0.5).unwrap();
-        let phase = release_phase(&osc, Side::Lower).unwrap();
-        assert!((phase.sin() + 0.3).abs() < 1e-15 && phase.cos() > 0.0, "x'' turns from negative to positive there");
-        assert!(pressure(&osc, Side::Lower, phase - 1e-3) > 0.0);
-        assert_eq!(release_phase(&osc, Side::Upper), None);
-    }
-}

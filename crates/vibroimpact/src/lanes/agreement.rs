@@ -30,14 +30,17 @@ fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
 }
 
+/// Whether the lanes have what one number has for each pair.
+fn compare(name: &str, lanes: &[f64], (a, b): (&[f64], &[f64]), one: fn(f64, f64) -> f64) {
+    for (k, got) in lanes.iter().enumerate() {
+        assert!(same(*got, one(a[k], b[k])), "{name} of {} and {}: {got}", a[k], b[k]);
+    }
+}
+
 fn check<L: Lane>() {
     for (a, b) in pairs(L::WIDTH) {
         let (x, y) = (L::load(&a), L::load(&b));
-        let each = |name: &str, lanes: L, one: fn(f64, f64) -> f64| {
-            for (k, got) in numbers(lanes).into_iter().enumerate() {
-                assert!(same(got, one(a[k], b[k])), "{name} of {} and {}: {got}", a[k], b[k]);
-            }
-        };
+        let each = |name: &str, lanes: L, one: fn(f64, f64) -> f64| compare(name, &numbers(lanes), (&a, &b), one);
         each("sum", x + y, |a, b| a + b);
         each("difference", x - y, |a, b| a - b);
         each("product", x * y, |a, b| a * b);

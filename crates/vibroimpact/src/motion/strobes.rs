@@ -76,28 +76,3 @@ impl Iterator for Strobes<'_> {
         Some(leg.at_phase(self.osc, time - leg.begin, self.phase, self.known))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{motion::stroboscopic_map, scenario};
-
-    /// The same states from the stroboscopic map, period by period.
-    #[test]
-    fn as_the_stroboscopic_map() {
-        let osc = scenario::U.oscillator();
-        let mut state = Start { x: 0.1, v: 0.2, phase: 1.5 };
-        for strobe in Strobes::new(&osc, state, 1.5).take(20) {
-            assert!((strobe.x - state.x).abs() < 1e-9 && (strobe.v - state.v).abs() < 1e-9, "{strobe:?} {state:?}");
-            state = stroboscopic_map(&osc, state, 1000).unwrap().state;
-        }
-    }
-
-    #[test]
-    fn motions_without_events_have_states_too() {
-        let osc = Oscillator::new(0.5, 2.0, 0.5).unwrap().with_damping(0.2).unwrap();
-        let free = Start::free_motion(&osc).unwrap();
-        let strobe = Strobes::new(&osc, Start { x: 1.0, v: 0.0, phase: 3.0 }, 0.0).nth(100).unwrap();
-        assert!((strobe.x - free.x).abs() < 1e-13 && (strobe.v - free.v).abs() < 1e-13, "{strobe:?}");
-    }
-}

@@ -210,28 +210,6 @@ mod tests {
     use super::*;
     use crate::motion::impact_map;
 
-    #[test]
-    fn both_motions_at_t_and_the_doubled_one() {
-        let osc = Oscillator::from_inverse_beta(1.11, 2.0, 0.5).unwrap();
-        let one = find(&osc, Label::new(1, 1), FindOptions::default());
-        assert_eq!(one.iter().filter(|o| o.physical).count(), 1);
-        assert!(!one.iter().any(|o| o.physical && o.cycle.stable()));
-        let half = find(&osc, Label::new(1, 2), FindOptions::default());
-        assert!(half.iter().any(|o| o.physical && o.cycle.stable()));
-    }
-
-    #[test]
-    fn stopped_at_a_starting_guess() {
-        let osc = Oscillator::from_inverse_beta(1.11, 2.0, 0.5).unwrap();
-        let asked = core::cell::Cell::new(0);
-        let go_on = || {
-            asked.set(asked.get() + 1);
-            asked.get() < 3
-        };
-        assert!(find_while(&osc, Label::new(2, 2), FindOptions::default(), &go_on).is_none());
-        assert_eq!(asked.get(), 3, "no further guess is followed");
-    }
-
     /// The chain computed to its end without copying.
     fn flown(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> Option<Ring> {
         let (mut ring, mut state, mut theta) =

@@ -173,35 +173,3 @@ impl AfterRelease {
         Some(if rounding_decides(osc, &excursion) { Self::Unconfirmed } else { Self::Cycle(cycle) })
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn flights_impacts_and_rest_fill_whole_periods() {
-        for (inverse, gap, eps) in [(1.11, -0.5, 0.5), (0.9, -0.9, 0.7), (2.5, 0.25, 0.5), (1.3, 0.3, 0.0)] {
-            let osc = Oscillator::from_inverse_beta(inverse, gap, eps).unwrap();
-            let cycle = from_release(&osc, Side::Upper, DEFAULT_EVENTS).unwrap();
-            assert_eq!(cycle.label.impacts == Count::Infinite, eps > 0.0);
-            let ahead = |a: f64, b: f64| crate::system::phase::wrap(b - a) / osc.beta();
-            let [rest] = cycle.rests.as_slice() else { panic!("one rest") };
-            let first = ahead(rest.release, cycle.points[0].state.phase);
-            let struck: f64 = cycle.points.iter().map(|p| p.interval).sum();
-            let turns = (first + struck + ahead(rest.begin, rest.release)) / osc.period();
-            // the flight before the first impact can be longer than a period
-            assert!((turns - turns.round()).abs() < 1e-12, "1/beta {inverse} gap {gap}: {turns}");
-        }
-    }
-
-    #[test]
-    fn no_release_no_cycle() {
-        for gap in [-1.5, 1.5] {
-            let osc = Oscillator::new(0.9, gap, 0.5).unwrap();
-            assert_eq!(from_release(&osc, Side::Upper, DEFAULT_EVENTS), None);
-        }
-        // released, but it does not stick again: the motion ends in 1/1
-        let osc = Oscillator::from_inverse_beta(0.6, 0.75, 0.5).unwrap();
-        assert_eq!(from_release(&osc, Side::Upper, DEFAULT_EVENTS), None);
-    }
-}

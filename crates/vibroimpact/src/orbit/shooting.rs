@@ -221,28 +221,6 @@ mod tests {
     use crate::system::Side;
 
     #[test]
-    fn two_over_one_at_s() {
-        let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5).unwrap();
-        let guess = ImpactState { phase: 0.83, velocity: 2.64, side: Side::Upper };
-        let cycle = shoot(&osc, guess, 2, 1).unwrap();
-        assert_eq!(cycle.label, Label::new(2, 1));
-        let expected =
-            [(0.829_989_671_461_920_7, 2.644_018_587_785_435), (3.194_590_893_857_773_4, 0.777_626_654_634_881_8)];
-        for (point, (theta, u)) in cycle.points.iter().zip(expected) {
-            assert!((point.state.phase - theta).abs() < 1e-13 && (point.state.velocity - u).abs() < 1e-13);
-        }
-        assert!((cycle.multipliers[0].re - 0.443_795_500_242).abs() < 1e-11);
-        assert!((cycle.multipliers[1].re - 0.140_830_630_247).abs() < 1e-11);
-    }
-
-    #[test]
-    fn a_fourfold_lap_of_the_fundamental_is_reduced() {
-        let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5).unwrap();
-        let guess = ImpactState { phase: 1.19, velocity: 2.8, side: Side::Upper };
-        assert_eq!(shoot(&osc, guess, 4, 4).unwrap().label, Label::new(1, 1));
-    }
-
-    #[test]
     fn damping_enters_the_determinant() {
         let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5).unwrap().with_damping(0.05).unwrap();
         let guess = ImpactState { phase: 1.19, velocity: 2.5, side: Side::Upper };

@@ -83,32 +83,36 @@ fn blocks_of<'a>(osc: &'a Oscillator, tail: &Tail) -> Option<(Tally<'a>, Vec<Sum
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lyapunov::{Measured, Spectrum};
     use crate::motion::ImpactState;
     use crate::quantities::of_verdict;
     use crate::system::Start;
-    use crate::verdict::{Chaos, SettleOptions, settle};
+    use crate::verdict::Chaos;
 
-    /// Chaotic motions: on one stop, with sticking, with damping and a second stop.
-    fn chaotic() -> Vec<(Oscillator, Chaos)> {
-        let systems = [
-            Oscillator::from_inverse_beta(1.11, 3.0, 0.5).unwrap(),
-            Oscillator::from_inverse_beta(1.3, 0.2, 0.7).unwrap(),
-            Oscillator::from_inverse_beta(1.11, 3.0, 0.5).unwrap().with_damping(0.01).unwrap(),
-        ];
-        let found = systems.into_iter().filter_map(|osc| {
-            match settle(&osc, Start::at_rest(&osc), &SettleOptions::default()).verdict {
-                Verdict::Chaotic(chaos) => Some((osc, chaos)),
-                _ => None,
-            }
-        });
-        found.collect()
+    /// The next impacts of a motion.
+    fn impacts<'a>(motion: &'a mut Motion<'_>) -> impl Iterator<Item = ImpactState> + 'a {
+        motion.filter_map(|event| event.arrival())
+    }
+
+    /// A motion from rest after a transient, as chaos.
+    fn chaotic(osc: &Oscillator) -> Chaos {
+        let mut motion = Motion::new(osc, Start::at_rest(osc));
+        let mut later = |count: usize| impacts(&mut motion).nth(count - 1).unwrap();
+        let tail = Tail { from: later(4000), last: later(1000), impacts: 1000 };
+        let unknown = Measured::exact(f64::NAN);
+        let spectrum = Spectrum { exponents: [unknown; 2], impact_rate: unknown, time: f64::NAN };
+        Chaos { spectrum, impacts: 5000, tail }
     }
 
     #[test]
     fn blocks_have_the_means_of_the_quantities() {
-        let all = chaotic();
-        assert!(!all.is_empty());
-        for (osc, chaos) in all {
+        // on one stop, with sticking, with damping
+        for osc in [
+            Oscillator::from_inverse_beta(1.11, 3.0, 0.5).unwrap(),
+            Oscillator::from_inverse_beta(1.3, 0.2, 0.7).unwrap(),
+            Oscillator::from_inverse_beta(1.11, 3.0, 0.5).unwrap().with_damping(0.01).unwrap(),
+        ] {
+            let chaos = chaotic(&osc);
             let values = of_verdict(&osc, &Verdict::Chaotic(chaos)).unwrap();
             let (_, blocks) = blocks_of(&osc, &chaos.tail).unwrap();
             assert_eq!(blocks.len(), FEWEST);
@@ -124,25 +128,16 @@ mod tests {
     #[test]
     fn means_of_other_stretches_lie_within_the_error_bars() {
         let osc = Oscillator::from_inverse_beta(1.11, 3.0, 0.5).unwrap();
-        let Verdict::Chaotic(chaos) = settle(&osc, Start::at_rest(&osc), &SettleOptions::default()).verdict else {
-            panic!("chaotic")
-        };
         // stretches of 1000 impacts, one after another
-        let mut tail = chaos.tail;
+        let mut tail = chaotic(&osc).tail;
         let means: Vec<Quantity> = Quantity::ALL.into_iter().filter(|quantity| quantity.is_mean()).collect();
         let mut runs = Vec::new();
         for _ in 0..40 {
             let (_, blocks) = blocks_of(&osc, &tail).unwrap();
             let value = |quantity: &Quantity| mean_over(&blocks, *quantity, scale(&osc));
             runs.push(means.iter().map(value).collect::<Vec<_>>());
-            let impacts =
-                Motion::after(&osc, &tail.from, SearchLimits::default()).filter_map(|event| match event.kind {
-                    EventKind::Impact { velocity_before: velocity, .. } => {
-                        Some(ImpactState { side: event.side, phase: event.phase, velocity })
-                    }
-                    _ => None,
-                });
-            tail.from = impacts.take(1000).last().unwrap();
+            let mut motion = Motion::after(&osc, &tail.from, SearchLimits::default());
+            tail.from = impacts(&mut motion).nth(999).unwrap();
         }
         for (k, quantity) in means.iter().enumerate() {
             let n = runs.len() as f64;
@@ -163,12 +158,5 @@ mod tests {
                 assert!((0.6..widest).contains(&(error / spread)), "{quantity:?}: {error} {spread}");
             }
         }
-    }
-
-    #[test]
-    fn only_chaos_has_error_bars() {
-        let osc = Oscillator::from_inverse_beta(1.8, 0.25, 0.5).unwrap();
-        let motion = settle(&osc, Start::at_rest(&osc), &SettleOptions::default()).verdict;
-        assert_eq!(errors_of_verdict(&osc, &motion), None);
     }
 }

@@ -171,36 +171,3 @@ pub fn attractors(osc: &Oscillator, starts: u64, seed: u64, options: &SettleOpti
     }
     census
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scenario;
-
-    #[test]
-    fn the_papers_points() {
-        for point in scenario::PAPER {
-            let census = attractors(&point.oscillator(), 50, 1, &SettleOptions::default());
-            let mut labels: Vec<_> = census.motions().iter().map(|found| found.verdict.label().into_owned()).collect();
-            labels.sort();
-            let mut expected = point.motions.to_vec();
-            expected.sort_unstable();
-            assert_eq!(labels, expected, "{}", point.name);
-        }
-    }
-
-    #[test]
-    fn starts_fill_the_box_and_depend_on_the_seed() {
-        let osc = scenario::S.oscillator();
-        let area = StartBox::natural(&osc);
-        let mut quarters = [0_u32; 4];
-        for index in 0..1000 {
-            let start = scattered_starts(&osc, area, 7, index);
-            let right = start.x > 0.5 * (area.x.0 + area.x.1);
-            let up = start.v > 0.0;
-            quarters[usize::from(right) + 2 * usize::from(up)] += 1;
-        }
-        assert!(quarters.iter().all(|q| (235..=265).contains(q)), "{quarters:?}");
-        assert_ne!(scattered_starts(&osc, area, 7, 2), scattered_starts(&osc, area, 8, 2));
-    }
-}

@@ -53,17 +53,6 @@ pub fn settle_each(
     width: Width,
     done: &mut dyn FnMut(usize, Settlement) -> bool,
 ) -> bool {
-    each_from(LONG, systems, start, (options, tails, width), done)
-}
-
-/// The same; motions are followed on in a batch after `long` impacts.
-fn each_from(
-    long: usize,
-    systems: &[Counted],
-    start: &dyn Fn(usize, u64) -> Start,
-    (options, tails, width): (&SettleOptions, bool, Width),
-    done: &mut dyn FnMut(usize, Settlement) -> bool,
-) -> bool {
     // the systems of each kind that can share lanes
     let mut kinds: Vec<(Kind, Vec<usize>)> = Vec::new();
     for (system, (osc, count)) in systems.iter().enumerate() {
@@ -90,7 +79,6 @@ fn each_from(
             points,
             start,
             options,
-            long,
             next: (0, 0),
             places: Vec::new(),
             tails,
@@ -129,7 +117,6 @@ struct Points<'a> {
     points: Vec<Point>,
     start: &'a dyn Fn(usize, u64) -> Start,
     options: &'a SettleOptions,
-    long: usize,
     /// The point and the start that is followed next.
     next: (usize, usize),
     /// The point and the start of each motion in the batch.
@@ -183,7 +170,7 @@ impl Source for Points<'_> {
             let (releases, cache) = (&mut self.points[number].releases, PropagatorCache::new());
             let mut drive = Drive { osc, follow, releases, motion, cache: Some(&cache), time: 0.0, returned: false };
             let flies_on = |follow: &Follow| !chatter::settles_after(osc, &follow.last());
-            match drive.verdict(options, &|drive| drive.follow.count() >= self.long && flies_on(drive.follow)) {
+            match drive.verdict(options, &|drive| drive.follow.count() >= LONG && flies_on(drive.follow)) {
                 Some(verdict) => self.decide((number, k), verdict, follow),
                 None => {
                     self.places.push((number, k));
@@ -218,77 +205,5 @@ impl Source for Points<'_> {
 
     fn stopping(&mut self) -> bool {
         self.stopped
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scenario;
-    use crate::verdict::{StartBox, scattered_starts};
-
-    /// Of every kind, several of some, with numbers of starts from 0 to more than a few.
-    fn systems() -> Vec<Counted> {
-        let mut all: Vec<Oscillator> = Vec::new();
-        for point in scenario::PAPER {
-            let osc = point.oscillator();
-            all.extend([osc, osc.with_damping(0.02).unwrap(), osc.with_second_stop(3.0, 0.8).unwrap()]);
-        }
-        for (inverse, gap, eps, damping) in [
-            (1.11, -0.5, 0.5, 0.0),
-            (0.4, -0.95, 0.9, 0.05),
-            (1.3, 0.75, 0.0, 0.0),
-            (1.0, 0.0, 0.7, 0.3),
-            (1.0, 0.4, 0.7, 0.0),
-            (0.002, 0.4, 0.6, 0.0),
-            (0.35, 0.4, 0.6, 0.0),
-            (2.6, 0.4, 0.6, 0.0),
-            (1.12, 3.0, 0.5, 0.0),
-            (1.10, 3.0, 0.5, 0.0),
-        ] {
-            all.push(Oscillator::from_inverse_beta(inverse, gap, eps).unwrap().with_damping(damping).unwrap());
-        }
-        let counts = [3, 1, 5, 0, 4, 40, 2].into_iter().cycle();
-        all.into_iter().zip(counts).collect()
-    }
-
-    /// The verdicts, numbers of impacts and tails of each system do not depend on the systems beside it, nor on the width
-    /// of the lanes.
-    #[test]
-    fn as_system_by_system() {
-        let options =
-            SettleOptions { max_impacts: 6000, chaos_over: 4000, max_steps: 200_000, ..SettleOptions::default() };
-        let systems = systems();
-        let areas: Vec<StartBox> = systems.iter().map(|(osc, _)| StartBox::natural(osc)).collect();
-        let start = |system: usize, k: u64| scattered_starts(&systems[system].0, areas[system], 3, k);
-        let none = KnownAttractors::default();
-        let alone = |system: usize| {
-            let (osc, count) = systems[system];
-            settle_many(&osc, 0..count, &|k| start(system, k), &none, &options, Width::Portable, &|| false)
-        };
-        let expected: Vec<Settlement> = (0..systems.len()).map(alone).collect();
-        let chaotic = |of: &Settlement| of.motions.iter().any(|found| matches!(found.verdict, Verdict::Chaotic(_)));
-        assert!(expected.iter().any(chaotic));
-        for width in Width::ALL.into_iter().filter(|width| width.available()) {
-            for (long, part) in
-                [(1, 0..systems.len()), (1, 0..9), (20, 5..systems.len()), (usize::MAX, 0..systems.len())]
-            {
-                let mut left: Vec<usize> = part.clone().collect();
-                let of = |k: usize, index: u64| start(part.start + k, index);
-                let asked = (&options, true, width);
-                let ended = each_from(long, &systems[part.clone()], &of, asked, &mut |k, got| {
-                    assert_eq!(got, expected[part.start + k], "{width:?} {:?}", systems[part.start + k]);
-                    left.retain(|system| *system != part.start + k);
-                    false
-                });
-                assert!(ended && left.is_empty(), "{left:?}");
-            }
-        }
-        let mut count = 0;
-        let ended = settle_each(&systems, &start, &options, false, Width::best(), &mut |_, _| {
-            count += 1;
-            count == 7
-        });
-        assert!(!ended && count == 7, "{count}");
     }
 }

@@ -195,18 +195,29 @@ fn rim_returns(osc: &Oscillator, cycle: &Cycle, (p, r, bound): ([f64; 3], f64, f
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::{Mapped, impact_map};
+    use crate::orbit::{FindOptions, find};
     use crate::scenario;
     use crate::system::Side;
-    use crate::verdict::{SettleOptions, Verdict, attractors, settle};
 
-    /// Motions started inside, also near the edge, settle on that cycle.
+    /// The arrival after one turn of a cycle.
+    fn turned(osc: &Oscillator, from: ImpactState, cycle: &Cycle) -> ImpactState {
+        cycle.points.iter().fold(from, |state, _| match impact_map(osc, &state, SearchLimits::default()) {
+            Mapped::Impact { state, .. } => state,
+            other => panic!("{state:?}: {other:?}"),
+        })
+    }
+
+    /// Motions started inside, also near the edge, stay inside from turn to turn and tend to that cycle.
     #[test]
     fn what_is_caught_settles_there() {
         let mut traps = 0;
         for point in [scenario::N, scenario::P, scenario::Q, scenario::R, scenario::S, scenario::T] {
             let osc = point.oscillator();
-            for found in attractors(&osc, 40, 1, &SettleOptions::default()).motions() {
-                let Verdict::Periodic(cycle) = &found.verdict else { continue };
+            let labels = point.motions.iter().filter_map(|label| label.parse().ok());
+            let orbits = labels.flat_map(|label| find(&osc, label, FindOptions::default()));
+            for orbit in orbits.filter(|orbit| orbit.physical && orbit.cycle.stable()) {
+                let cycle = &orbit.cycle;
                 let Some(trap) = TrappingRegion::around(&osc, cycle, SearchLimits::default().steps) else { continue };
                 traps += 1;
                 let [a, b, c] = trap.form;
@@ -222,8 +233,16 @@ mod tests {
                     };
                     if trap.catches(&state) {
                         inside += 1;
-                        let settled = settle(&osc, state.rebound(&osc), &SettleOptions::default());
-                        assert!(settled.verdict.same_as(&found.verdict, 1e-6), "{} {state:?} {settled:?}", point.name);
+                        let apart = |at: &ImpactState| {
+                            let turn = crate::system::phase::difference(at.phase, trap.center.phase);
+                            turn.abs() + (at.velocity - trap.center.velocity).abs()
+                        };
+                        let (mut at, mut turns) = (state, 0);
+                        while apart(&at) > 1e-9 {
+                            at = turned(&osc, at, cycle);
+                            turns += 1;
+                            assert!(trap.catches(&at) && turns < 1000, "{} {state:?} {at:?}", point.name);
+                        }
                     }
                 }
                 assert!(inside > 50, "{inside}");

@@ -1,4 +1,4 @@
-//! Impacts on several stops in turn that accumulate, and starts at which several stops are closed.
+//! Impacts on several stops in turn that accumulate, and starts on and beyond several stops.
 
 use vibroimpact::events::{End, Event, EventKind, Limits, Motion, Start};
 use vibroimpact::machine::{Machine, MachineParts};
@@ -132,5 +132,24 @@ fn f42v_sums_have_all_digits() {
         let (seen, _) = events(&Machine::new(parts).unwrap(), &Start::default());
         let sum = seen.iter().find(|event| event.kind == kind).unwrap();
         assert!((sum.time - expected).abs() < 2e-14, "{} instead of {expected}", sum.time);
+    }
+}
+
+/// A start beyond several stops becomes a valid one, and one that is valid stays the same bits.
+#[test]
+fn starts_beyond_stops_become_valid() {
+    let parts = MachineParts::new(["a", "b"]).with_mass(0, 0.3).with_mass(1, 1.7).with_frequency(1.1);
+    let parts = parts.with_rigid_stop("between", &[1.0, -1.0], 0.1, 0.5).with_rigid_stop("wall", &[0.0, 1.0], 0.7, 0.2);
+    let machine = Machine::new(parts).unwrap();
+    for k in 0..200 {
+        let x = f64::from(k);
+        let q = vec![3.0 * (0.7 * x).sin(), 2.0 * (1.3 * x).cos()];
+        let start = Start { q, qdot: vec![0.1, -0.2], phase: 0.4, ..Start::default() };
+        let within = start.within_stops(&machine);
+        let valid = |start: &Start| Motion::new(&machine, start, Limits::default()).is_ok();
+        assert!(valid(&within), "{start:?} {within:?}");
+        if start.q[0] - start.q[1] < 0.1 && start.q[1] < 0.7 {
+            assert_eq!(within, start);
+        }
     }
 }

@@ -1,6 +1,7 @@
-//! Exponents and multipliers of cycles in which something decays by many powers of ten: Liouville's sum.
+//! Exponents and multipliers of cycles in which something decays by many powers of ten: Liouville's sum. Exponents of machines
+//! that are oscillators, or have no contacts.
 
-use vibroimpact::chaos::{Exponents, machine_exponents_while};
+use vibroimpact::chaos::{ExponentOptions, Exponents, exponents, machine_exponents_while};
 use vibroimpact::events::{EventKind, Start};
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::orbit::machine::Cycle;
@@ -269,4 +270,72 @@ fn f42aa_a_row_that_collapses_keeps_its_mean_motion() {
             assert!(off < 1e-6, "{}: {re} {im} is no multiplier: {:?}", cycle.label, cycle.multipliers);
         }
     }
+}
+
+fn machine(law: StopLaw, gap: f64) -> Machine {
+    let parts = MachineParts::new(["mass"])
+        .with_mass(0, 1.0)
+        .with_link(&[1.0], 1.0, 0.05)
+        .with_frequency(1.0 / 1.11)
+        .with_force(0, 1, 0.0, 1.0);
+    Machine::new(parts.with_stop("stop", &[1.0], gap, law)).unwrap()
+}
+
+/// An undamped soft stop changes no volume: the exponents sum to minus the structure's own damping, exactly.
+#[test]
+fn the_sum_of_exponents() {
+    for (gap, stiffness) in [(0.0, 30.0), (2.0, 400.0), (2.6, 900.0)] {
+        let law = StopLaw::Compliant { stiffness, damping: 0.0, preload: 0.0, opening: Opening::Force };
+        let machine = machine(law, gap);
+        let found = machine_exponents_while(&machine, &Start::default(), (5_000, 500), &|| true).unwrap().unwrap();
+        let sum: f64 = found.exponents.iter().map(|exponent| exponent.value).sum();
+        assert!((sum + 0.05).abs() < 1e-9, "{gap} {} {sum}", found.motion.label());
+    }
+}
+
+#[test]
+fn without_contacts_those_of_the_structure() {
+    let machine = machine(StopLaw::Rigid { restitution: 0.5 }, 100.0);
+    let found = machine_exponents_while(&machine, &Start::default(), (100, 100), &|| true).unwrap().unwrap();
+    assert!(matches!(found.motion, Verdict::NoImpact(_)));
+    assert!(found.exponents.iter().all(|exponent| (exponent.value + 0.025).abs() < 1e-12));
+}
+
+/// Those of a machine that is an oscillator are those of the oscillator, per unit of its time, and agree with those along the
+/// machine's own motion: beside a body that nothing moves it is no oscillator.
+#[test]
+fn of_an_oscillator() {
+    // the other body comes to rest faster than any neighbours of the oscillator do
+    const ALONE: f64 = 20.0;
+    let of = vibroimpact::scenario::U.oscillator();
+    let (mass, stiffness, force) = (0.2, 5.0, 3.0);
+    let machine = |names: &[&str]| {
+        let mut along = vec![0.0; names.len()];
+        along[0] = 1.0;
+        let mut parts = MachineParts::new(names.iter().copied())
+            .with_mass(0, mass)
+            .with_link(&along, stiffness, 0.0)
+            .with_frequency(of.beta() * 5.0)
+            .with_force(0, 1, 0.0, force)
+            .with_rigid_stop("stop", &along, of.gap() * force / stiffness, of.restitution());
+        if names.len() > 1 {
+            parts = parts.with_mass(1, 1.0).with_link(&[0.0, 1.0], 1000.0, 2.0 * ALONE);
+        }
+        Machine::new(parts).unwrap()
+    };
+    let found = |names: &[&str]| {
+        machine_exponents_while(&machine(names), &Start::default(), (20_000, 1_000), &|| true).unwrap().unwrap()
+    };
+    let (found, own) = (found(&["mass"]), found(&["mass", "other"]));
+    let expected = exponents(&of, vibroimpact::Start::at_rest(&of), &ExponentOptions::new(20_000, 1_000));
+    assert_eq!((&*found.motion.label(), &*own.motion.label()), ("chaotic", "chaotic"));
+    assert_eq!((found.exponents.len(), own.exponents.len()), (2, 4));
+    assert!(own.exponents[2..].iter().all(|exponent| (exponent.value + ALONE).abs() < 1e-3), "{:?}", own.exponents);
+    for ((one, other), want) in found.exponents.iter().zip(&own.exponents).zip(expected.exponents) {
+        // the same motion to rounding, which chaos enlarges: within the bars of both
+        assert!((one.value / 5.0 - want.value).abs() < want.error, "{one:?} {want:?}");
+        assert!((one.error / 5.0 / want.error - 1.0).abs() < 0.5, "{one:?} {want:?}");
+        assert!((one.value - other.value).abs() < one.error + other.error, "{one:?} {other:?}");
+    }
+    assert!((found.impact_rate.value / own.impact_rate.value - 1.0).abs() < 0.02);
 }

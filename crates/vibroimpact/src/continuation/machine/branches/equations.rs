@@ -132,9 +132,11 @@ impl<const N: usize> Equations for MachineEquations<N> {
 mod tests {
     use super::*;
     use crate::continuation::trace::equations::correct;
-    use crate::events::Start;
+    use crate::events::{Motion, Start};
     use crate::machine::{HarmonicMotion, MachineParts, Opening, StopLaw};
-    use crate::verdict::{SettleOptions, Verdict, settle_machine};
+    use crate::orbit::machine::Cycle;
+    use crate::orbit::near_returns;
+    use crate::verdict::Count;
 
     fn machine(soft: bool) -> Machine {
         let parts = MachineParts::new(["a", "b"])
@@ -165,6 +167,25 @@ mod tests {
         Machine::new(parts).unwrap()
     }
 
+    /// The events after which a motion is near its cycle.
+    const SETTLED: usize = 2000;
+    /// The forcing periods of a cycle are a part of these.
+    const PERIODS: u32 = 12;
+
+    /// The cycle near the motion from a start.
+    fn settled(frame: &MachineFrame<'_>) -> Cycle {
+        let mut motion = Motion::new(frame.machine, &Start::default(), frame.limits()).unwrap();
+        for _ in 0..SETTLED {
+            motion.step().unwrap();
+            motion.take_events();
+        }
+        if frame.machine.period().is_some() {
+            return Cycle::near(frame, motion.place(), PERIODS).unwrap();
+        }
+        let returns = near_returns(frame, motion, Count::Finite(1));
+        returns.into_iter().find_map(|(place, time)| Cycle::returning(frame, &place, time)).unwrap()
+    }
+
     fn misses(ring: &MachineRing, frame: &MachineFrame<'_>) -> Vec<f64> {
         (0..ring.len()).flat_map(|k| ring.miss(frame, k).unwrap()).collect()
     }
@@ -173,9 +194,8 @@ mod tests {
     #[test]
     fn derivatives_and_convergence() {
         for (machine, gap) in [(machine(false), 0.5), (machine(true), 0.5), (on_belt(), 0.65)] {
-            let settled = settle_machine(&machine, &Start::default(), &SettleOptions::default()).unwrap();
-            let Verdict::Periodic(cycle) = settled.verdict else { panic!("{settled:?}") };
             let frame = MachineFrame::new(&machine);
+            let cycle = settled(&frame);
             let ring = MachineRing::of(&frame, &cycle.strobes[0], (cycle.label.periods, cycle.period)).unwrap();
             let (family, _) = Family::of_path(&machine, "stop.stop.gap").unwrap();
             let equations = MachineEquations::new((&machine, family), ring.clone(), cycle.sizes, [0.5]);
@@ -281,9 +301,8 @@ mod tests {
     fn derivatives_by_every_number() {
         let (mut kinds, mut compared) = (std::collections::BTreeSet::new(), 0);
         for (place, machine) in machines().into_iter().enumerate() {
-            let settled = settle_machine(&machine, &Start::default(), &SettleOptions::default()).unwrap();
-            let Verdict::Periodic(cycle) = settled.verdict else { panic!("{place} {settled:?}") };
             let frame = MachineFrame::new(&machine);
+            let cycle = settled(&frame);
             let ring = MachineRing::of(&frame, &cycle.strobes[0], (cycle.label.periods, cycle.period)).unwrap();
             kinds.extend(
                 ring.events.iter().map(|event| format!("{:?}", event.guard).split('(').next().unwrap().to_owned()),

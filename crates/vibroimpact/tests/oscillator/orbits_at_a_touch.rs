@@ -1,5 +1,4 @@
 //! Solutions whose impact has no speed: the motion without that impact touches the stop, and they are no orbits.
-#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use vibroimpact::orbit::{FindOptions, find, one_impact, refine};
 use vibroimpact::{Label, Oscillator};

@@ -1,12 +1,11 @@
 //! Quantities of random attractors: the energy balance, and every quantity against a fine waveform.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may stop at what it did not expect")]
 
 use vibroimpact::chaos::{ExponentOptions, Tail, exponents};
 use vibroimpact::lanes::Width;
 use vibroimpact::motion::{EventKind, Motion};
 use vibroimpact::quantities::{
-    MEASURED_IMPACTS, Quantities, Quantity, cycle_segments, harmonics, of_arrivals, of_cycle, of_transient, of_verdict,
-    of_verdict_only,
+    MEASURED_IMPACTS, Quantities, Quantity, cycle_segments, errors_of_verdict, harmonics, of_arrivals, of_cycle,
+    of_transient, of_verdict, of_verdict_only,
 };
 use vibroimpact::verdict::{
     Chaos, KnownAttractors, SettleOptions, StartBox, Verdict, scattered_starts, settle, settle_many,
@@ -362,4 +361,11 @@ fn other_verdicts() {
     let way = of_transient(&n, Start::at_rest(&n), settled.impacts);
     let end = of_verdict(&n, &settled.verdict).unwrap();
     assert!(way.get(Quantity::ImpactSpeedMax) > end.get(Quantity::ImpactSpeedMax) - 1e-6);
+}
+
+#[test]
+fn only_chaos_has_error_bars() {
+    let osc = Oscillator::from_inverse_beta(1.8, 0.25, 0.5).unwrap();
+    let motion = settle(&osc, Start::at_rest(&osc), &SettleOptions::default()).verdict;
+    assert_eq!(errors_of_verdict(&osc, &motion), None);
 }

@@ -1,8 +1,9 @@
 //! Lyapunov exponents against what is known without them: the identity of their sum, multipliers, flights without impacts,
-//! neighbours followed as motions of their own, and each other.
+//! neighbours followed as motions of their own, and each other. Sections of an attractor.
 
-use vibroimpact::chaos::{ExponentOptions, Exponents, Grounds, Measured, exponents};
-use vibroimpact::motion::{EventKind, Motion, stroboscopic_map};
+use vibroimpact::chaos::{ExponentOptions, Exponents, Grounds, Measured, exponents, lyapunov, section};
+use vibroimpact::flight::SearchLimits;
+use vibroimpact::motion::{EventKind, ImpactState, Mapped, Motion, impact_map, stroboscopic_map};
 use vibroimpact::orbit::{FindOptions, find};
 use vibroimpact::verdict::NoImpact;
 use vibroimpact::{Oscillator, Side, Start, scenario};
@@ -279,4 +280,69 @@ fn a_budget_that_runs_out_says_so() {
     let found = exponents(&osc, Start::at_rest(&osc), &options);
     assert!(matches!(found.grounds, Grounds::Undecided { impacts: 100..=5000 }), "{found:?}");
     assert!(found.exponents[0].value.is_nan() && found.impact_rate.value.is_nan());
+}
+
+#[test]
+fn a_cycle_is_a_few_points() {
+    let osc = scenario::S.oscillator();
+    let found = section(&osc, Start::at_rest(&osc), 400, 6);
+    let expected = [(0.829_989_671_461_920_7, 2.644_018_587_785_435), (3.194_590_893_857_773, 0.777_626_654_634_881_7)];
+    for impact in &found.impacts {
+        let near = |(phase, velocity): &(f64, f64)| {
+            (impact.phase - phase).abs() < 1e-12 && (impact.velocity - velocity).abs() < 1e-12
+        };
+        assert!(expected.iter().any(near), "{impact:?}");
+    }
+    for strobe in &found.strobes {
+        let first = found.strobes[0];
+        assert!((strobe.x - first.x).abs() < 1e-12 && (strobe.v - first.v).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn motions_that_end_leave_what_they_have() {
+    // pressed against the stop: a few impacts, then at rest in every period
+    let stuck = Oscillator::new(0.9, -1.5, 0.5).unwrap();
+    let found = section(&stuck, Start { x: -3.0, v: 0.0, phase: 1.0 }, 0, 100);
+    assert!((3..60).contains(&found.impacts.len()) && found.impacts[0].side == Side::Upper);
+    assert_eq!(found.strobes.len(), 100);
+    assert_eq!((found.strobes[99].x, found.strobes[99].v), (-1.5, 0.0));
+    // it grazes the stop after every natural period, for ever
+    let touching = Oscillator::new(2.0, 3.0, 0.5).unwrap();
+    let found = section(&touching, Start { x: 3.0, v: 0.0, phase: 2.0 }, 0, 10);
+    assert_eq!((found.impacts.len(), found.strobes.len()), (0, 10));
+    // a complete chatter in every period
+    let chatter = Oscillator::from_inverse_beta(1.11, -0.5, 0.5).unwrap();
+    assert_eq!(section(&chatter, Start::at_rest(&chatter), 100, 200).impacts.len(), 200);
+}
+
+#[test]
+fn sum_of_exponents_is_the_identity() {
+    for (inverse, gap, eps, zeta) in [(1.11, 3.0, 0.5, 0.0), (1.11, 2.9, 0.5, 0.001), (1.15, 3.0, 0.6, 0.0)] {
+        let osc = Oscillator::from_inverse_beta(inverse, gap, eps).unwrap().with_damping(zeta).unwrap();
+        let from = ImpactState { phase: 1.4, velocity: 2.4, side: Side::Upper };
+        let spectrum = lyapunov(&osc, from, 20_000).unwrap();
+        let last = (0..20_000).fold(from, |state, _| match impact_map(&osc, &state, SearchLimits::default()) {
+            Mapped::Impact { state, .. } => state,
+            other => panic!("{other:?}"),
+        });
+        let [one, two] = spectrum.exponents;
+        let rate = spectrum.impact_rate.value;
+        let identity = 2.0 * eps.ln() * rate - 2.0 * zeta;
+        // the area changes by U0/U1, which leaves a bounded number over t in the sum
+        let end = (from.velocity / last.velocity).ln().abs() / (20_000.0 / rate);
+        assert!((one.value + two.value - identity).abs() <= 1e-9 + 1.01 * end, "{one:?} {two:?} {identity}");
+    }
+}
+
+#[test]
+fn a_periodic_motion_has_the_exponents_of_its_multipliers() {
+    let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5).unwrap();
+    let from = ImpactState { phase: 0.829_989_671_461_920_7, velocity: 2.644_018_587_785_435, side: Side::Upper };
+    let spectrum = lyapunov(&osc, from, 10_000).unwrap();
+    let expected = [0.443_795_500_242_f64, 0.140_830_630_247].map(|m| m.ln() / osc.period());
+    for (measured, want) in spectrum.exponents.iter().zip(expected) {
+        assert!((measured.value - want).abs() < 2e-3, "{measured:?} {want}");
+    }
+    assert!((spectrum.impact_rate.value * osc.period() - 2.0).abs() < 1e-9);
 }

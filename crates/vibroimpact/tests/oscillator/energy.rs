@@ -2,7 +2,6 @@
 //!
 //! The work of the force is integrated by Gauss-Legendre quadrature along the flights, independently of the impact
 //! search, and compared with what the impacts and the damper took.
-#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use vibroimpact::motion::{EventKind, Motion, Path};
 use vibroimpact::verdict::{SettleOptions, Verdict, settle};
@@ -151,4 +150,34 @@ fn symmetric_stops_are_struck_in_turn_with_equal_speed() {
         }
     }
     assert!(found >= 3, "{found}");
+}
+
+/// Without damping, the energy of a flight changes by the work of the force, here integrated by Simpson's rule, and
+/// an elastic impact does not change it.
+#[test]
+fn energy_balance_of_elastic_impacts() {
+    let osc = Oscillator::new(1.7, 0.3, 1.0).unwrap();
+    let energy = |(x, v): (f64, f64)| 0.5 * (x * x + v * v);
+    let mut motion = Motion::new(&osc, Start::at_rest(&osc));
+    let mut after = energy((Start::at_rest(&osc).x, Start::at_rest(&osc).v));
+    let mut most: f64 = 0.0;
+    for _ in 0..200 {
+        let event = motion.next().unwrap();
+        let EventKind::Impact { velocity_before, velocity_after } = event.kind else { panic!() };
+        let leg = *motion.leg().unwrap();
+        let power = |s: f64| (leg.phase + osc.beta() * s).sin() * leg.state(&osc, s).1;
+        let h = leg.duration / 400.0;
+        let weighted = (0..=400).map(|k| match k {
+            0 | 400 => power(h * f64::from(k)),
+            _ => f64::from(2 + 2 * (k % 2)) * power(h * f64::from(k)),
+        });
+        let work = weighted.sum::<f64>() * h / 3.0;
+        let before = energy((osc.gap(), velocity_before));
+        assert!((before - after - work).abs() < 1e-8, "{event:?}: {before} {after} {work}");
+        after = energy((osc.gap(), velocity_after));
+        assert_eq!(before, after);
+        most = most.max(work.abs());
+    }
+    // the work that the balance has to account for
+    assert!(most > 0.1, "{most}");
 }
