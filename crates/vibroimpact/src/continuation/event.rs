@@ -77,7 +77,7 @@ pub enum BranchEvent {
         /// Where in the cycle of an oscillator.
         detail: Option<EventDetail>,
     },
-    /// Of an oscillator with restitution 0: beyond, the mass sticks after this impact.
+    /// Of an oscillator with restitution 0: beyond, the mass sticks after this impact. The branch goes on with that cycle.
     Stick {
         /// The index of the impact of this point's cycle.
         impact: usize,
@@ -92,8 +92,8 @@ pub enum BranchEvent {
         detail: Option<EventDetail>,
     },
     /// On a branch of cycles of an oscillator that stick: the time of sticking is zero, at the phase of the release. Beyond, the
-    /// mass leaves the stop before it sticks: after an incomplete chatter or, with restitution 0, because the force pulls it
-    /// away. The branch ends. For a complete chatter, cycles with ever more impacts end at the same value from the
+    /// mass leaves the stop before it sticks. With restitution 0 the force pulls it away at once, and the branch goes on with that
+    /// cycle. Otherwise the chatter is incomplete and the branch ends: cycles with ever more impacts end at the same value from the
     /// other side.
     EndOfRest {
         /// The stop on which the mass sticks.
@@ -107,7 +107,7 @@ pub enum BranchEvent {
         stop: usize,
     },
     /// Impacts of an oscillator appeared one after another, and their number is infinite here. The cycle of this point is the
-    /// limit: it sticks at the phase of the release. Beyond, the branch is one of cycles that stick.
+    /// limit: it sticks at the phase of the release. The branch goes on with cycles that stick.
     Chatter {
         /// The stop of the chatter.
         stop: usize,
@@ -245,14 +245,16 @@ impl BranchEvent {
     #[must_use]
     pub const fn ends(&self) -> bool {
         self.ends_search()
-            || matches!(
-                self,
-                Self::Halving
-                    | Self::LossOfContact { .. }
-                    | Self::Stick { .. }
-                    | Self::EndOfRest { .. }
-                    | Self::RestForEver { .. }
-                    | Self::Chatter { .. }
-            )
+            || matches!(self, Self::Halving | Self::LossOfContact { .. } | Self::RestForEver { .. })
+            || matches!(self, Self::EndOfRest { .. }) && !self.changes_method()
+    }
+
+    /// Whether the branch of an oscillator goes on beyond with a cycle that is followed in another way, as one that sticks.
+    pub(crate) const fn changes_method(&self) -> bool {
+        match self {
+            Self::Stick { .. } | Self::Chatter { .. } => true,
+            Self::EndOfRest { detail: Some(detail), .. } => detail.labels.1.is_some(),
+            _ => false,
+        }
     }
 }

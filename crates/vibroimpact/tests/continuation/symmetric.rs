@@ -1,11 +1,12 @@
 //! Two stops alike: orbits with one impact on each in a period, symmetric under a half turn, by their closed form; where
-//! symmetry is lost; and a branch that stops at a stick.
+//! symmetry is lost; and a branch through the place where the mass begins to stick.
 
 use crate::Random;
 use std::f64::consts::{PI, TAU};
 use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, SolutionPoint};
 use vibroimpact::motion::ImpactState;
 use vibroimpact::orbit::{Cycle, CyclePoint, FindOptions, find, refine};
+use vibroimpact::verdict::{SettleOptions, settle};
 use vibroimpact::{Label, Oscillator, Parameter, Side};
 
 /// Speed and phase on the upper stop of the symmetric orbits, and the trace of the half turn: the closed form of one impact
@@ -135,20 +136,37 @@ fn both_touches_of_a_symmetric_orbit() {
     assert!(matches!(first, BranchEvent::Grazing { stop: 0, also: None, .. }), "{first:?}");
 }
 
-/// Restitution 0: the mass leaves the stop at once while the force pulls it away at the impact, and stays where it presses.
+/// Restitution 0: the mass leaves the stop at once while the force pulls it away at the impact, and stays where it presses. The branch
+/// goes on through this place both ways.
 #[test]
-fn a_branch_ends_where_the_mass_sticks() {
+fn a_branch_goes_on_where_the_mass_sticks() {
     let osc = Oscillator::from_inverse_beta(0.8, 1.5, 0.0).unwrap().with_damping(0.02).unwrap();
     let orbits = find(&osc, Label::new(1, 1), FindOptions::default());
     let begin = &orbits.iter().find(|o| o.physical && o.cycle.rests.is_empty()).unwrap().cycle;
-    let branch =
-        Branch::new(&osc, begin, Parameter::Gap, -1.0..=2.0, Direction::Down, BranchOptions::default()).unwrap();
-    let last = branch.last().unwrap();
-    let Some(BranchEvent::Stick { impact: 0 }) = last.event else { panic!("{:?} at {}", last.event, last.value) };
-    let theta = last.cycle.points[0].state.phase;
-    assert!((theta.sin() - last.value).abs() < 1e-11, "{theta} {}", last.value);
-    // beyond, the orbit that rests takes over
-    let beyond = Parameter::Gap.set(&osc, last.value - 1e-4).unwrap();
-    let orbits = find(&beyond, Label::new(1, 1), FindOptions::default());
-    assert!(orbits.iter().any(|o| o.physical && o.cycle.rests.len() == 1));
+    let follow = |osc: &Oscillator, begin: &Cycle, direction: Direction| -> Vec<SolutionPoint> {
+        Branch::new(osc, begin, Parameter::Gap, 0.2..=2.0, direction, BranchOptions::default()).unwrap().collect()
+    };
+    let down = follow(&osc, begin, Direction::Down);
+    let sticks = |point: &SolutionPoint| point.event == Some(BranchEvent::Stick { impact: 0 });
+    let place = down.iter().position(sticks).unwrap();
+    let (at, (before, beyond)) = (&down[place], down.split_at(place + 1));
+    let theta = at.cycle.points[0].state.phase;
+    assert!((theta.sin() - at.value).abs() < 1e-11, "{theta} {}", at.value);
+    assert!(before.iter().all(|point| point.cycle.rests.is_empty()) && !beyond.is_empty());
+    assert!(beyond.iter().all(|point| point.cycle.rests.len() == 1 && point.physical && point.value < at.value));
+    let last = beyond.last().unwrap();
+    assert_eq!((last.value, last.event), (0.2, Some(BranchEvent::EndOfRange)));
+    // each is where a motion from beside it settles
+    for point in beyond.iter().step_by(7) {
+        let osc = Parameter::Gap.set(&osc, point.value).unwrap();
+        let settled = settle(&osc, point.cycle.points[0].state.rebound(&osc), &SettleOptions::default());
+        assert_eq!(settled.verdict.label(), "1/1", "{}", point.value);
+    }
+    let there = Parameter::Gap.set(&osc, 0.2).unwrap();
+    let up = follow(&there, &last.cycle, Direction::Up);
+    let ends = |point: &SolutionPoint| matches!(point.event, Some(BranchEvent::EndOfRest { stop: 0, .. }));
+    let place = up.iter().position(ends).unwrap();
+    assert!((up[place].value - at.value).abs() < 1e-9, "{} {}", up[place].value, at.value);
+    assert!(up[place + 1..].iter().all(|point| point.cycle.rests.is_empty() && point.physical));
+    assert_eq!(up.last().unwrap().event, Some(BranchEvent::EndOfRange));
 }

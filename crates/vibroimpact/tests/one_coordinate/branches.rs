@@ -17,22 +17,34 @@ const SPAN: f64 = 0.05;
 /// Values of the same event differ by less.
 const CLOSE: f64 = 1e-9;
 
-/// Whether the events are the same at the same gaps, as far as both branches go. That of the oscillator ends where the mass
-/// begins to stick, with `stick` or, after ever more impacts, with `chatter`; that of the machine goes on. Where the only impact
-/// is lost, that of the machine ends, and with damping that of the oscillator goes on without impacts.
+/// The name of an event of a branch of the oscillator on that of the machine.
+fn name_of_machine(name: &str) -> &str {
+    match name {
+        "stick" | "chatter" => "sticking begins",
+        "end of rest" => "sticking ends",
+        name => name,
+    }
+}
+
+/// Whether the events are the same at the same gaps. Towards a complete chatter, impacts appear at ever smaller distances: how many of
+/// these the branches show differs, and what follows does not. Where the only impact is lost, that of the machine ends, and with
+/// damping that of the oscillator goes on without impacts.
 fn same(want: &[(&str, f64)], events: &[(&str, f64)]) -> bool {
-    let close = |a: &(&str, f64), b: &(&str, f64)| (a.1 - b.1).abs() < CLOSE;
-    let alike = want.iter().zip(events).take_while(|(a, b)| a.0 == b.0 && close(a, b)).count();
-    let (want, events) = (&want[alike..], &events[alike..]);
+    let alike = |(a, b): &(&(&str, f64), &(&str, f64))| name_of_machine(a.0) == b.0 && (a.1 - b.1).abs() < CLOSE;
+    let count = want.iter().zip(events).take_while(alike).count();
+    let (want, events) = (&want[count..], &events[count..]);
+    let limit = |of: &[(&str, f64)]| of.iter().position(|event| !["grazing", "fold"].contains(&event.0));
     match (want, events) {
         ([], []) => true,
-        ([last @ ("stick", _)], [first, ..]) => first.0 == "sticking begins" && close(last, first),
-        ([last @ ("chatter", _)], rest) => {
-            let limit = rest.iter().find(|event| !["grazing", "fold"].contains(&event.0));
-            limit.is_some_and(|event| event.0 == "sticking begins" && close(last, event))
+        ([first @ ("grazing", _), ("end of range", _)], [last]) if last.0 == "loss of contact" => {
+            (first.1 - last.1).abs() < CLOSE
         }
-        ([first @ ("grazing", _), ("end of range", _)], [last]) => last.0 == "loss of contact" && close(first, last),
-        _ => false,
+        _ => match (limit(want), limit(events)) {
+            (Some(one), Some(other)) if (one, other) != (0, 0) && want[one].0 == "chatter" => {
+                alike(&(&want[one], &events[other])) && same(&want[one + 1..], &events[other + 1..])
+            }
+            _ => false,
+        },
     }
 }
 

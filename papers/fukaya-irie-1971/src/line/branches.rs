@@ -30,8 +30,16 @@ pub(crate) fn branch((m, n): (u32, u32), gap: f64, direction: Direction) -> Resu
     let orbits = find(&osc, Label::new(m, n), FindOptions::default());
     let orbit = orbits.iter().find(|o| o.physical).ok_or(Error::Unexpected("an orbit of the line is not there"))?;
     Branch::new(&osc, &orbit.cycle, Parameter::Gap, GAPS, direction, options())
-        .map(Iterator::collect)
+        .map(to_chatter)
         .map_err(|_| Error::Unexpected("a branch of the line does not begin"))
+}
+
+/// A branch up to the complete chatter that it tends to.
+fn to_chatter(branch: Branch) -> Vec<SolutionPoint> {
+    let mut points: Vec<SolutionPoint> = branch.collect();
+    let chatter = points.iter().position(|point| matches!(point.event, Some(BranchEvent::Chatter { .. })));
+    points.truncate(chatter.map_or(points.len(), |last| last + 1));
+    points
 }
 
 /// The branches of 1/1 to 1/4 in both directions, and the branches of twice the period from their flips.
@@ -53,7 +61,7 @@ pub(crate) fn all() -> Result<Vec<Vec<SolutionPoint>>, Error> {
         let options = BranchOptions { impacts: 2 * IMPACTS, ..options() };
         let branch = Branch::from_flip(&at(flip.value)?, &flip, Parameter::Gap, GAPS, options)
             .map_err(|_| Error::Unexpected("a doubled branch of the line does not begin"))?;
-        branches.push(branch.collect());
+        branches.push(to_chatter(branch));
     }
     Ok(branches)
 }

@@ -119,11 +119,12 @@ fn leave(
     mut direction: Vec<f64>,
     options: BranchOptions,
 ) -> Result<Branch, BranchError> {
-    let equations = CycleEquations::new(osc, varying, ring, scale(&range, value)?);
+    let equations = CycleEquations::new(osc, varying.clone(), ring, scale(&range, value)?);
     // to first order the parameter does not change
     direction.push(0.0);
     let length = equations.length(&direction);
     direction.iter_mut().for_each(|d| *d /= length);
     let w = CycleEquations::join(ring, value);
-    ImpactBranch::begin(equations, w, direction, &range, options).map(Branch::from)
+    let branch = ImpactBranch::begin(equations, w, direction, &range, options)?;
+    Ok(Branch::of_impacts(branch, osc, varying, range, options))
 }

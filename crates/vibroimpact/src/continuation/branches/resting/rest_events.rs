@@ -242,7 +242,8 @@ impl RestBranch {
             excursion.rests().find(|rest| rest.held * osc.beta() < SHRUNK).map(|rest| rest.span)
         };
         if let Some(rest) = shrunk(&excursion) {
-            let (stop, labels) = (rest.side.place(), (cycle.label, None));
+            let stops = osc.stop(rest.side).is_some_and(|stop| stop.restitution == 0.0);
+            let (stop, labels) = (rest.side.place(), (cycle.label, stops.then_some(cycle.label)));
             let detail = EventDetail::at(rest.release, labels);
             let event = BranchEvent::EndOfRest { stop, detail: Some(detail) };
             return Some(FoundEvent { value: inside, event, cycle });

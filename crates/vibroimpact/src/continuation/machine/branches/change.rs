@@ -173,7 +173,9 @@ pub(crate) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
     let new = || rest(found.guard, stops, found.after[other].constrains());
     match (found.guard, expected.guard) {
         // of stops that close together this one closes first
-        (guard @ GuardKind::Gap(stop), GuardKind::Gap(_)) if expected.has(guard) || expected.pushes(stop) => {
+        (guard @ GuardKind::Gap(stop), GuardKind::Gap(_))
+            if i < m && (expected.has(guard) || expected.pushes(stop)) =>
+        {
             Difference::Corner { first: own, second: other }
         }
         // a closed stop opens by its force instead of its position, or the other way round
