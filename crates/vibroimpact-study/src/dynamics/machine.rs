@@ -95,8 +95,6 @@ impl Dynamics for MachineSource {
     }
 
     fn placed(machine: &Machine, mut start: Start, path: &String, value: f64) -> Result<Start, PlanError> {
-        start.q.resize(machine.n(), 0.0);
-        start.qdot.resize(machine.n(), 0.0);
         StartAxis::of(machine, path)?.set(&mut start, value);
         // contacts and digits belong to the state before
         Ok(Start { contacts: Vec::new(), exact: Vec::new(), ..start })

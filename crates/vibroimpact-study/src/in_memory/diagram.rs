@@ -16,7 +16,7 @@ pub(crate) fn diagram<D: Swept>(
     task: &SweepFill<D>,
     control: &Control<'_>,
 ) -> Result<Diagram<D::Name, D::Shown>, RunError> {
-    let (parts, plan) = (tiles_of(task.grid(), control, |block, tick| task.compute(block, tick))?, &task.plan);
+    let (parts, plan) = (tiles_of(&task.over().grid, control, |block, tick| task.compute(block, tick))?, &task.plan);
     let mut steps = parts.into_iter().flat_map(|(_, steps)| steps).collect::<Result<Vec<_>, _>>()?;
     if let SweepDirection::Scatter { .. } = plan.direction {
         // a tile holds several starts at several values; sort by value, and at each value by start

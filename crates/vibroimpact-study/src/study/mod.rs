@@ -70,7 +70,7 @@ impl Study {
 
     /// The study of a fill, with all its fields.
     fn of(fill: Box<dyn Fill>) -> Self {
-        let (grid, kept) = (fill.grid().clone(), (0..fill.fields().len()).collect());
+        let (grid, kept) = (fill.over().grid.clone(), (0..fill.fields().len()).collect());
         Self { fill, grid, kept }
     }
 
@@ -144,7 +144,7 @@ impl Study {
     /// The coordinate values of the dimensions that have any.
     #[must_use]
     pub fn coordinates(&self) -> Vec<Along> {
-        self.fill.coordinates()
+        self.fill.over().coordinates.clone()
     }
 
     /// The fields (arrays) of the study.

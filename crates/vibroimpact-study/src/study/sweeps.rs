@@ -1,6 +1,6 @@
 //! The tiles of an orbit diagram. A sweep is one tile; scattered starts have many.
 
-use super::fill::{Along, BegunTile, Fill, Keep};
+use super::fill::{Along, BegunTile, Fill, Keep, Over};
 use crate::axis::Described;
 use crate::diagram::{Diagram, DiagramPoint, DiagramStep, MotionKind, Sweep, SweepDirection, carried, number_of};
 use crate::dynamics::Dynamics;
@@ -40,13 +40,37 @@ pub(crate) trait Swept: Dynamics<Name: Described + Send + Sync, Shown: Send + Sy
 /// The plan of a diagram of a system.
 pub(crate) type PlanOf<D> = DiagramPlan<<D as Dynamics>::Name, <D as Dynamics>::Shown>;
 
+/// The directions of the sweeps, and the values of the numbers.
+fn coordinates<V: Described, S>(plan: &DiagramPlan<V, S>) -> Vec<Along> {
+    let sweep = |values: &[f64]| Along {
+        name: "sweep".to_owned(),
+        dimension: "sweep".to_owned(),
+        values: values.to_vec(),
+        long_name: "direction of the sweep: 1 with rising values, -1 with falling ones".into(),
+        unit: Unit::NUMBER,
+    };
+    let rows = match plan.direction {
+        SweepDirection::Scatter { .. } => None,
+        SweepDirection::Up => Some(sweep(&[1.0])),
+        SweepDirection::Down => Some(sweep(&[-1.0])),
+        SweepDirection::Both => Some(sweep(&[1.0, -1.0])),
+    };
+    // the values of a second number are a second coordinate of the same dimension
+    let cut = plan.cut();
+    let varied = cut.names().enumerate().map(|(k, number)| {
+        let value = |index: u32| plan.values(index).nth(k).unwrap_or(f64::NAN);
+        Along::new(number, (0..number_of(&plan.over)).map(value).collect(), plan.vary.text())
+    });
+    rows.into_iter().chain(varied).collect()
+}
+
 /// The motions at all values.
 pub(crate) struct SweepFill<D: Dynamics> {
     written: D,
     pub(crate) plan: PlanOf<D>,
     /// Number of points of a motion.
     keep: usize,
-    grid: Grid,
+    over: Over,
 }
 
 impl<D: Swept> SweepFill<D> {
@@ -64,7 +88,8 @@ impl<D: Swept> SweepFill<D> {
             _ => vec![dimension("sweep", runs, 1), dimension(vary.text(), values, values)],
         };
         let keep = usize::try_from(plan.keep).unwrap_or(usize::MAX);
-        Self { written: written.clone(), plan: plan.clone(), keep, grid: Grid { dimensions } }
+        let over = Over { grid: Grid { dimensions }, coordinates: coordinates(plan) };
+        Self { written: written.clone(), plan: plan.clone(), keep, over }
     }
 
     /// The motions of the rows, one row after another, each in the order of its sweep; `None` if stopped.
@@ -187,32 +212,8 @@ impl<D: Swept> Fill for SweepFill<D> {
         Some(columns(&steps))
     }
 
-    fn grid(&self) -> &Grid {
-        &self.grid
-    }
-
-    fn coordinates(&self) -> Vec<Along> {
-        let sweep = |values: &[f64]| Along {
-            name: "sweep".to_owned(),
-            dimension: "sweep".to_owned(),
-            values: values.to_vec(),
-            long_name: "direction of the sweep: 1 with rising values, -1 with falling ones".into(),
-            unit: Unit::NUMBER,
-        };
-        let rows = match self.plan.direction {
-            SweepDirection::Scatter { .. } => None,
-            SweepDirection::Up => Some(sweep(&[1.0])),
-            SweepDirection::Down => Some(sweep(&[-1.0])),
-            SweepDirection::Both => Some(sweep(&[1.0, -1.0])),
-        };
-        let plan = &self.plan;
-        // the values of a second number are a second coordinate of the same dimension
-        let cut = plan.cut();
-        let varied = cut.names().enumerate().map(|(k, number)| {
-            let value = |index: u32| plan.values(index).nth(k).unwrap_or(f64::NAN);
-            Along::new(number, (0..number_of(&plan.over)).map(value).collect(), plan.vary.text())
-        });
-        rows.into_iter().chain(varied.collect::<Vec<_>>()).collect()
+    fn over(&self) -> &Over {
+        &self.over
     }
 
     fn fields(&self) -> Vec<Field> {
