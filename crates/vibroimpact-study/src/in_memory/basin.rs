@@ -23,7 +23,6 @@ pub(crate) fn basin(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>
 }
 
 fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: u32) -> Result<Basin, RunError> {
-    plan.check(system)?;
     let osc = &system.oscillator()?;
     if let Some(axis) = plan.axes.iter().find(|axis| !axis.vary.is_start()) {
         let (task, name) = ("basin of one system", axis.vary.name().into());

@@ -125,7 +125,7 @@ impl<D: Swept> SweepFill<D> {
     fn columns<'s>(&self, points: usize, steps: impl Iterator<Item = (usize, &'s DiagramStep)>) -> Vec<Column> {
         let mut columns: Vec<Column> = self.fields().iter().map(|field| field.empty(points)).collect();
         for (at, step) in steps {
-            columns[0].set(at, f64::from(step.kind.code()));
+            columns[0].set(at, step.kind.code() as f64);
             for (k, point) in (at * self.keep..(at + 1) * self.keep).zip(&step.points) {
                 let numbers = D::numbers_of(*point);
                 columns[1..].iter_mut().zip(numbers).for_each(|(column, number)| column.set(k, number));
