@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 use std::panic::catch_unwind;
 use vibroimpact_cases::{Budget, Case, Changed, DrawnFamily, FAMILIES, Rewriting, Rule, changed, faults};
+use vibroimpact_study::machine::MachineSource;
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -23,7 +24,7 @@ fn main() {
             // what is known of its motion is in the order of the case
             case = Case { machine, start, symmetries: Vec::new(), equal: Vec::new(), same_as: None, ..case };
         }
-        println!("{}", case.toml());
+        println!("{}", MachineSource::from(&case.machine).starting(&case.start).to_toml());
         for fault in faults(&case, Budget::default()) {
             println!("# {fault}");
         }

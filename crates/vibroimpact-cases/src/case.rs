@@ -1,6 +1,5 @@
 //! A case: a machine, a start, and what is known of its motion without computing it.
 
-use crate::toml;
 use vibroimpact::events::Start;
 use vibroimpact::machine::{Machine, MachineParts, StopLaw};
 
@@ -81,37 +80,9 @@ pub struct Case {
 }
 
 impl Case {
-    /// The machine file of it, for `vibro`.
-    #[must_use]
-    pub fn toml(&self) -> String {
-        toml::text(self.machine.parts(), &self.start)
-    }
-
     /// Whether any stop is rigid.
     #[must_use]
     pub fn has_rigid_stop(&self) -> bool {
         self.machine.stops().iter().any(|stop| matches!(stop.law, StopLaw::Rigid { .. }))
-    }
-
-    /// Whether nothing drives it: no harmonic force, no stop and no belt that moves. Its energy never grows.
-    #[must_use]
-    pub fn is_unforced(&self) -> bool {
-        let parts = self.machine.parts();
-        parts.forces.iter().all(|force| force.cos.iter().chain(&force.sin).all(|value| *value == 0.0))
-            && parts.stops.iter().all(|stop| stop.motion.is_empty())
-            && parts.joints.iter().all(|joint| joint.belt == 0.0)
-    }
-
-    /// Whether it is unforced and nothing takes energy from it: no damper, no friction, restitution 1.
-    #[must_use]
-    pub fn is_conservative(&self) -> bool {
-        let parts = self.machine.parts();
-        self.is_unforced()
-            && parts.joints.iter().all(|joint| joint.limit == 0.0)
-            && parts.damping.largest() == 0.0
-            && parts.stops.iter().all(|stop| match stop.law {
-                StopLaw::Rigid { restitution } => restitution == 1.0,
-                StopLaw::Compliant { damping, .. } => damping == 0.0,
-            })
     }
 }

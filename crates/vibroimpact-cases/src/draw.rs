@@ -55,12 +55,6 @@ impl Draw {
         if self.chance(0.5) { ((number * 100.0).round() / 100.0).clamp(low, high) } else { number }
     }
 
-    /// Number or its negative.
-    pub fn signed(&mut self, low: f64, high: f64) -> f64 {
-        let number = self.number(low, high);
-        if self.chance(0.5) { number } else { -number }
-    }
-
     /// Numbers in a range.
     pub fn numbers(&mut self, n: usize, low: f64, high: f64) -> Vec<f64> {
         (0..n).map(|_| self.number(low, high)).collect()

@@ -11,7 +11,6 @@
 //! | the families, one a file | [`FAMILIES`], `families` |
 //! | the same machine written in another way | [`changed`], [`Rewriting`] |
 //! | events that do not depend on how a machine is written | [`Standard`] |
-//! | a case as a machine file | [`Case::toml`], `toml` |
 //! | gaps, forces and energies from the numbers of a machine alone | `quantities` |
 //! | what must hold of every motion | [`faults`], [`Rule`] |
 //!
@@ -30,7 +29,6 @@ mod families;
 mod invariance;
 mod quantities;
 mod rules;
-mod toml;
 
 pub use case::{Case, Drawn, Symmetry};
 pub use changes::{Changed, Rewriting, changed};

@@ -34,7 +34,7 @@ fn is_symmetry(case: &Case, symmetry: &Symmetry) -> bool {
 fn machines_starts_and_symmetries_are_valid() {
     let names: BTreeSet<&str> = FAMILIES.iter().map(|family| family.name).collect();
     assert_eq!(names.len(), FAMILIES.len());
-    let (mut symmetric, mut equal, mut same) = (0, 0, 0);
+    let (mut symmetric, mut equal, mut same, mut rigid) = (0, 0, 0, 0);
     for family in FAMILIES {
         for seed in 0..300 {
             let case = family.case(seed);
@@ -46,17 +46,9 @@ fn machines_starts_and_symmetries_are_valid() {
             symmetric += usize::from(!case.symmetries.is_empty());
             equal += usize::from(!case.equal.is_empty());
             same += usize::from(case.same_as.is_some());
+            rigid += usize::from(case.has_rigid_stop());
         }
     }
     assert!(symmetric > 2000 && equal > 300 && same > 200, "{symmetric} {equal} {same}");
-}
-
-#[test]
-fn facts_are_those_of_the_numbers() {
-    let cases: Vec<Case> = FAMILIES.iter().flat_map(|family| (0..30).map(|seed| family.case(seed))).collect();
-    let count = |fact: fn(&Case) -> bool| cases.iter().filter(|case| fact(case)).count();
-    assert!(cases.iter().all(|case| !case.is_conservative() || case.is_unforced()));
-    for fact in [Case::is_conservative, Case::is_unforced, Case::has_rigid_stop] {
-        assert!((10..cases.len() - 50).contains(&count(fact)), "{}", count(fact));
-    }
+    assert!((100..300 * FAMILIES.len() - 500).contains(&rigid), "{rigid}");
 }

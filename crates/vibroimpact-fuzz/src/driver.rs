@@ -4,6 +4,7 @@ use crate::case::kind;
 use crate::limits::{self, Limits};
 use crate::worker::{self, Job};
 use crate::{Family, FuzzOptions};
+use clap::ValueEnum;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, BufReader};
@@ -36,7 +37,7 @@ const ENOUGH: usize = 30;
 pub fn run(options: &FuzzOptions, program: &Path, say: &(dyn Fn(&str) + Sync)) -> io::Result<bool> {
     let seed = options.seed.unwrap_or_else(drawn);
     let vibro = options.vibro.clone().unwrap_or_else(|| worker::beside(program));
-    let families = options.families();
+    let families = options.only.map_or_else(|| Family::value_variants().to_vec(), |family| vec![family]);
     say(&format!("seed {seed}, about {} s, {}", options.seconds, vibro.display()));
     let jobs =
         if options.jobs == 0 { std::thread::available_parallelism().map_or(1, usize::from) } else { options.jobs };

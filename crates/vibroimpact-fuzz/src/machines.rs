@@ -26,7 +26,7 @@ impl Property for Machines {
 
     fn describe(&self, (family, seed): &(usize, u64)) -> String {
         let case = FAMILIES[*family].case(*seed);
-        format!("machine {seed} of the family {}:\n{}", case.family, case.toml())
+        format!("machine {seed} of the family {}:\n{}", case.family, file(&case).to_toml())
     }
 
     fn check(&mut self, (family, seed): &(usize, u64)) -> Result<(), String> {
@@ -34,7 +34,8 @@ impl Property for Machines {
         if let Some(fault) = faults(&case, Budget::default()).first() {
             return Err(fault.to_string());
         }
-        let source = MachineSource::from_text(&case.toml(), no_files).map_err(|why| format!("its file: {why}"))?;
+        let source =
+            MachineSource::from_text(&file(&case).to_toml(), no_files).map_err(|why| format!("its file: {why}"))?;
         let read = source.machine().map_err(|why| format!("its file: {why}"))?;
         if read.parts() != case.machine.parts() {
             return Err("its file is another machine".to_owned());
@@ -45,6 +46,11 @@ impl Property for Machines {
         asked(&source, Task::Settle { start: None, impacts: Some(SETTLED) }, "settle")?;
         Ok(())
     }
+}
+
+/// The machine file of a case.
+pub(crate) fn file(case: &Case) -> MachineSource {
+    MachineSource::from(&case.machine).starting(&case.start)
 }
 
 /// The answer to a question about a machine, which has all that programs need.

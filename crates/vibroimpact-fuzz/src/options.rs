@@ -1,113 +1,70 @@
 //! The options of the driver: `--seconds N --seed S`, and how to run one case again.
 
 use crate::Family;
+use crate::worker::Job;
+use clap::{Parser, Subcommand};
 use std::path::PathBuf;
 
-/// The usage text of the program.
-pub const USAGE: &str = "\
-usage: cargo xtask fuzz [--seconds N] [--seed S] [--only FAMILY] [--cases N] [--case K]
-
-  --seconds N    about how long, 1 to 86400; 60 by default
-  --seed S       which cases; drawn from the clock and printed by default
-  --only FAMILY  one family: commands, plans, stores, page, verdicts or machines
-  --cases N      at most N cases of each family
-  --case K       case K alone, with --seed and --only as a fault was printed
-  --jobs N       workers at a time; one per processor by default
-  --vibro FILE   the command to test; the one built beside this program by default
-";
-
-/// The options, checked.
-#[derive(Clone, Debug, PartialEq)]
+/// Random and adversarial questions to the command, plans, stores and the explorer.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "fuzz", bin_name = "cargo xtask fuzz")]
 pub struct FuzzOptions {
-    /// Wall time in seconds.
+    /// About how long, 1 to 86400 seconds of wall time
+    #[arg(long, value_name = "N", default_value_t = 60.0, value_parser = seconds)]
     pub seconds: f64,
-    /// Seed of the cases; `None` to take one from the clock.
+    /// Which cases; drawn from the clock and printed by default
+    #[arg(long, value_name = "S")]
     pub seed: Option<u64>,
-    /// The only family to run; `None` for all.
+    /// One family; all by default
+    #[arg(long, value_name = "FAMILY")]
     pub only: Option<Family>,
-    /// Maximum number of cases of each family.
+    /// At most N cases of each family
+    #[arg(long, value_name = "N")]
     pub cases: Option<u64>,
-    /// The only case to run.
+    /// Case K alone, with --seed and --only as a fault was printed
+    #[arg(long, value_name = "K", requires_all = ["seed", "only"])]
     pub case: Option<u64>,
-    /// Number of simultaneous workers; 0 for one per processor.
+    /// Workers at a time; one per processor by default
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     pub jobs: usize,
-    /// The command to test.
+    /// The command to test; the one built beside this program by default
+    #[arg(long, value_name = "FILE")]
     pub vibro: Option<PathBuf>,
+    /// The task of a worker, which the driver starts.
+    #[command(subcommand)]
+    pub worker: Option<Worker>,
 }
 
-impl Default for FuzzOptions {
-    fn default() -> Self {
-        Self { seconds: 60.0, seed: None, only: None, cases: None, case: None, jobs: 0, vibro: None }
-    }
+/// What the driver asks of this program.
+#[derive(Clone, Debug, Subcommand)]
+pub enum Worker {
+    /// Runs the cases of one family
+    #[command(hide = true)]
+    Worker(Job),
 }
 
-impl FuzzOptions {
-    /// Parses the words after `fuzz`.
-    ///
-    /// # Errors
-    /// A message that names the invalid word.
-    pub fn parse(words: &[String]) -> Result<Self, String> {
-        let mut options = Self::default();
-        let mut words = words.iter();
-        while let Some(word) = words.next() {
-            let value = words.next().ok_or_else(|| format!("`{word}` needs a value"))?;
-            let whole =
-                || value.parse::<u64>().map_err(|_| format!("{word} `{value}` is not a whole number, 0 or more"));
-            match word.as_str() {
-                "--seconds" => {
-                    let seconds = value.parse().ok().filter(|s| (1.0..=86_400.0).contains(s));
-                    options.seconds = seconds.ok_or_else(|| format!("seconds = {value} lies outside 1 to 86400"))?;
-                }
-                "--seed" => options.seed = Some(whole()?),
-                "--cases" => options.cases = Some(whole()?),
-                "--case" => options.case = Some(whole()?),
-                "--jobs" => options.jobs = usize::try_from(whole()?).unwrap_or(0),
-                "--vibro" => options.vibro = Some(value.into()),
-                "--only" => {
-                    let known = Family::ALL.map(Family::name).join(", ");
-                    let family = Family::named(value);
-                    options.only =
-                        Some(family.ok_or_else(|| format!("there is no family `{value}`; there are {known}"))?);
-                }
-                other => return Err(format!("`fuzz` has no option `{other}`")),
-            }
-        }
-        if options.case.is_some() && (options.only.is_none() || options.seed.is_none()) {
-            return Err("--case needs --only and --seed, as they were printed with the fault".to_owned());
-        }
-        Ok(options)
-    }
-
-    /// The families to run.
-    #[must_use]
-    pub fn families(&self) -> Vec<Family> {
-        self.only.map_or_else(|| Family::ALL.to_vec(), |family| vec![family])
-    }
+/// A time in seconds.
+fn seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse().ok().filter(|seconds| (1.0..=86_400.0).contains(seconds));
+    seconds.ok_or_else(|| format!("seconds = {text} lies outside 1 to 86400"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn parse(line: &str) -> Result<FuzzOptions, String> {
-        FuzzOptions::parse(&line.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
-    }
-
     #[test]
     fn words_are_read_and_nonsense_is_named() {
-        assert_eq!(parse(""), Ok(FuzzOptions::default()));
+        let parse = |line: &str| FuzzOptions::try_parse_from(format!("fuzz {line}").split_whitespace());
         let one = parse("--seed 7 --only plans --case 12").unwrap();
-        assert_eq!((one.seed, one.only, one.case), (Some(7), Some(Family::Plans), Some(12)));
+        assert_eq!((one.seed, one.only, one.case, one.seconds), (Some(7), Some(Family::Plans), Some(12), 60.0));
         for (line, sentence) in [
             ("--seconds 0", "lies outside"),
             ("--seconds nan", "lies outside"),
-            ("--seed -1", "whole number"),
-            ("--seed", "needs a value"),
-            ("--only everything", "there is no family `everything`"),
-            ("--quick 1", "no option `--quick`"),
-            ("--case 3", "--case needs"),
+            ("--only everything", "commands, plans, stores, page, verdicts, machines"),
+            ("--case 3", "--seed <S>"),
         ] {
-            let refused = parse(line).unwrap_err();
+            let refused = parse(line).unwrap_err().to_string();
             assert!(refused.contains(sentence), "{line}: {refused}");
         }
     }

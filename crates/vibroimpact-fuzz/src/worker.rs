@@ -8,8 +8,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// The task of a worker.
-#[derive(Clone, Debug, PartialEq)]
+/// The task of a worker, in the order of its [`words`](Self::words).
+#[derive(Clone, Debug, PartialEq, clap::Args)]
 pub struct Job {
     /// The family of the cases.
     pub family: Family,
@@ -26,26 +26,12 @@ pub struct Job {
 }
 
 impl Job {
-    /// The words from which [`Self::parse`] restores the task.
+    /// The words from which the task is read again.
     #[must_use]
     pub fn words(&self) -> Vec<String> {
         let Self { family, seed, from, until, seconds, vibro } = self;
         let numbers = [seed.to_string(), from.to_string(), until.to_string(), seconds.to_string()];
         [family.to_string()].into_iter().chain(numbers).chain([vibro.display().to_string()]).collect()
-    }
-
-    /// Parses the words of [`Self::words`].
-    #[must_use]
-    pub fn parse(words: &[String]) -> Option<Self> {
-        let [family, seed, from, until, seconds, vibro] = words else { return None };
-        Some(Self {
-            family: Family::named(family)?,
-            seed: seed.parse().ok()?,
-            from: from.parse().ok()?,
-            until: until.parse().ok()?,
-            seconds: seconds.parse().ok()?,
-            vibro: vibro.into(),
-        })
     }
 }
 
@@ -77,7 +63,7 @@ fn all<P: Property>(property: &mut P, task: &Job, out: &mut impl Write) -> io::R
             break;
         }
         let mut told = Ok(());
-        let from = (&strategy, case::runner(task.seed, task.family.name(), k));
+        let from = (&strategy, case::runner(task.seed, &task.family.to_string(), k));
         let found =
             case::run(property, from, &mut known, |case| told = tell(out, &json!({ "begin": k, "case": case })));
         told?;
@@ -103,13 +89,17 @@ pub fn beside(program: &Path) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::FuzzOptions;
+    use crate::options::Worker;
+    use clap::Parser;
 
     #[test]
     fn a_task_survives_its_words() {
         let task =
             Job { family: Family::Page, seed: 7, from: 3, until: u64::MAX, seconds: 1.5, vibro: "a b/vibro".into() };
-        assert_eq!(Job::parse(&task.words()), Some(task));
-        assert_eq!(Job::parse(&[]), None);
+        let words = ["fuzz", "worker"].map(str::to_owned).into_iter().chain(task.words());
+        let Some(Worker::Worker(read)) = FuzzOptions::parse_from(words).worker else { panic!("no worker") };
+        assert_eq!(read, task);
         assert_eq!(beside(Path::new("target/debug/fuzz")).parent(), Some(Path::new("target/debug")));
     }
 }

@@ -64,5 +64,5 @@ fn the_same_seed_asks_the_same() {
 fn nonsense_is_refused() {
     let output = fuzz(Path::new("vibro"), "--quick 1");
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("usage: cargo xtask fuzz"));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("Usage: cargo xtask fuzz"));
 }

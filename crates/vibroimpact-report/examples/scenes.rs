@@ -9,7 +9,7 @@ use vibroimpact::{Scales, Start};
 use vibroimpact_plot::Figure;
 use vibroimpact_report::scene::{View, Viewed};
 use vibroimpact_report::{Asked, Units, scene};
-use vibroimpact_study::{Control, DiagramPlan, SystemPlan};
+use vibroimpact_study::{Control, DiagramPlan, Parameter, Span, SystemPlan};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args().nth(1).ok_or("a folder is needed")?;
@@ -43,12 +43,12 @@ fn main() -> Result<(), Box<dyn Error>> {
             save(&format!("{name}-multipliers"), &scene::multipliers(&cycle.multipliers, &cycle.stabilities()))?;
         }
     }
-    for (name, system, task, few) in [
-        ("gap", system(1.11, 1.0), r#"{"vary":"gap","over":"0.5:3:400"}"#, 6),
-        ("frequency", system(1.0, 0.75), r#"{"vary":"inverse_beta","over":"0.8:1.8:400"}"#, 8),
+    for (name, system, vary, over, few) in [
+        ("gap", system(1.11, 1.0), Parameter::Gap, "0.5:3:400", 6),
+        ("frequency", system(1.0, 0.75), Parameter::InverseBeta, "0.8:1.8:400", 8),
     ] {
         let (asked, control) = (Asked { system, units: Units::default() }, Control::default());
-        let plan: DiagramPlan = serde_json::from_str(task)?;
+        let plan = DiagramPlan::new(vary, over.parse::<Span>()?);
         let mut labels = scene::labels(&asked, &plan, 40, &control)?;
         labels.truncate(few);
         save(&format!("bifurcation-{name}"), &scene::bifurcation(&asked, &plan, Some(&labels), &control)?.figure()?)?;

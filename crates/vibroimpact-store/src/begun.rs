@@ -84,7 +84,7 @@ impl Store {
         if !self.study.continues() {
             return Ok(());
         }
-        let left = self.shelf.list(BEGUN).map_err(|error| self.unread(BEGUN, error))?;
+        let left = self.list(BEGUN)?;
         self.remove(&left)
     }
 }

@@ -71,7 +71,7 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the place cannot be read.
     pub fn progress(&self) -> Result<Progress, StoreError> {
-        let items = self.shelf.list("").map_err(|error| self.unread("", error))?;
+        let items = self.list("")?;
         let grid = self.study.grid();
         let status = |tile: u64| self.layout.status.key(&self.layout.status_place(tile));
         let at = |key: &str| items.binary_search_by(|item| item.key.as_str().cmp(key)).ok();

@@ -80,7 +80,6 @@ impl Store {
             let chunks: Vec<Option<Vec<u8>>> = order.iter().map(chunk).collect();
             self.put(&self.layout.key(first, field), &shards::assemble(&chunks))?;
         }
-        let prefix = loose_prefix(shard);
-        self.close_shard(first, &self.shelf.list(&prefix).map_err(|error| self.unread(&prefix, error))?)
+        self.close_shard(first, &self.list(&loose_prefix(shard))?)
     }
 }

@@ -102,28 +102,19 @@ use vibroimpact_study::study::{Cells, Study};
 /// # Errors
 /// [`StoreError::Unreachable`] for a bucket if this build does not support buckets.
 pub fn shelf(place: &str) -> Result<Arc<dyn Shelf>, StoreError> {
-    if place.trim().is_empty() {
-        return Err(StoreError::Unreachable { place: "the store".into(), why: "its name is empty".into() });
-    }
-    if place.trim() == "-" {
-        return Err(StoreError::Unreachable {
-            place: "the store".into(),
-            why: "`-` is stdout elsewhere, and a store is a folder".into(),
-        });
+    let refused = |place: &str, why: &str| StoreError::Unreachable { place: place.to_owned(), why: why.to_owned() };
+    match place.trim() {
+        "" => return Err(refused("the store", "its name is empty")),
+        "-" => return Err(refused("the store", "`-` is stdout elsewhere, and a store is a folder")),
+        _ => {}
     }
     match place.split_once("://") {
         None => Ok(Arc::new(Folder::new(Path::new(place)))),
         #[cfg(feature = "s3")]
         Some(("s3", _)) => Ok(Arc::new(Bucket::new(place)?)),
         #[cfg(not(feature = "s3"))]
-        Some(("s3", _)) => Err(StoreError::Unreachable {
-            place: place.to_owned(),
-            why: "this build reaches folders only\nhint: build with `--features s3`".to_owned(),
-        }),
-        Some(_) => Err(StoreError::Unreachable {
-            place: place.to_owned(),
-            why: "a store lies in a folder or at s3://BUCKET/PREFIX".to_owned(),
-        }),
+        Some(("s3", _)) => Err(refused(place, "this build reaches folders only\nhint: build with `--features s3`")),
+        Some(_) => Err(refused(place, "a store lies in a folder or at s3://BUCKET/PREFIX")),
     }
 }
 
@@ -148,7 +139,7 @@ impl Store {
         match store.root() {
             Ok(root) => return store.joined(&root),
             Err(StoreError::Absent(_)) => {
-                let there = store.shelf.list("").map_err(|error| store.unread("", error))?;
+                let there = store.list("")?;
                 if there.iter().any(|item| item.key == ROOT) {
                     // another process has created the store in the meantime
                     let root = store.root()?;
@@ -275,6 +266,10 @@ impl Store {
 
     fn get(&self, key: &str) -> Result<Option<Vec<u8>>, StoreError> {
         self.shelf.get(key).map_err(|error| self.unread(key, error))
+    }
+
+    fn list(&self, prefix: &str) -> Result<Vec<Item>, StoreError> {
+        self.shelf.list(prefix).map_err(|error| self.unread(prefix, error))
     }
 
     fn unread(&self, key: &str, error: io::Error) -> StoreError {

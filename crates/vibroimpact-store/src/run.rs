@@ -229,13 +229,12 @@ impl Store {
 
     /// Number of complete tiles.
     pub(crate) fn count_done(&self) -> Result<u64, StoreError> {
-        let list = |prefix: &str| self.shelf.list(prefix).map_err(|error| self.unread(prefix, error));
-        let stated = || list(&self.layout.status.chunk_prefix());
+        let stated = || self.list(&self.layout.status.chunk_prefix());
         match &self.layout.shards {
             None => Ok(stated()?.len() as u64),
             Some(shards) => {
                 // first those that wait: the status of their shard is written before they are removed
-                let waiting = list(LOOSE)?;
+                let waiting = self.list(LOOSE)?;
                 Ok(self.count_in_shards(shards, &stated()?, &waiting))
             }
         }

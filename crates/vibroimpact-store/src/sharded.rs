@@ -147,8 +147,7 @@ impl Store {
         let Some(shards) = &self.layout.shards else { return Ok(true) };
         let tiles = shards.tiles(shard);
         let Some(first) = tiles.iter().flatten().next().copied() else { return Ok(true) };
-        let prefix = loose_prefix(shard);
-        let waiting = self.shelf.list(&prefix).map_err(|error| self.unread(&prefix, error))?;
+        let waiting = self.list(&loose_prefix(shard))?;
         let there = self.get(&self.layout.key(first, 0))?.is_some();
         if waiting.len() < tiles.iter().flatten().count() && !there {
             return Ok(false);
@@ -209,7 +208,7 @@ impl Store {
     /// [`StoreError::DamagedTile`] for a tile that is missing or damaged.
     pub(crate) fn complete_shards(&self) -> Result<(), StoreError> {
         let Some(shards) = &self.layout.shards else { return Ok(()) };
-        let waiting = self.shelf.list(LOOSE).map_err(|error| self.unread(LOOSE, error))?;
+        let waiting = self.list(LOOSE)?;
         let folders: BTreeSet<&str> = waiting.iter().filter_map(|item| Some(item.key.rsplit_once('/')?.0)).collect();
         for shard in 0..shards.count() {
             let Some(tile) = shards.tiles(shard).into_iter().flatten().next() else { continue };
@@ -242,7 +241,7 @@ impl Store {
         if self.layout.shards.is_none() {
             return Ok(());
         }
-        self.remove(&self.shelf.list(LOOSE).map_err(|error| self.unread(LOOSE, error))?)
+        self.remove(&self.list(LOOSE)?)
     }
 
     /// Removes objects.

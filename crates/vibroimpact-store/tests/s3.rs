@@ -8,7 +8,7 @@
 
 mod common;
 
-use common::{basin, control, map, sharded, stopped, whole};
+use common::{all_plans, basin, control, map, sharded, stopped, whole};
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{Read, Write};
@@ -105,6 +105,10 @@ fn variables(server: &str) -> Vec<(String, String)> {
     names.into_iter().zip(values).map(|(name, value)| (name.to_owned(), value.to_owned())).collect()
 }
 
+/// A place for each of all plans.
+const PLACES: [&str; 4] =
+    ["s3://studies/basin", "s3://studies/deep/in/it", "s3://studies/sharded/basin", "s3://studies/sharded/map"];
+
 /// All objects of a place.
 fn objects(shelf: &dyn Shelf) -> BTreeMap<String, Vec<u8>> {
     shelf.list("").unwrap().into_iter().map(|item| (item.key.clone(), shelf.get(&item.key).unwrap().unwrap())).collect()
@@ -143,13 +147,7 @@ fn a_bucket_is_a_place_like_a_folder() {
 #[test]
 fn the_same_bytes_as_in_a_folder() {
     let Some(server) = Server::start() else { return };
-    let [of_basin, of_map] = sharded();
-    for (plan, place) in [
-        (basin(), "s3://studies/basin"),
-        (map(), "s3://studies/deep/in/it"),
-        (of_basin, "s3://studies/sharded/basin"),
-        (of_map, "s3://studies/sharded/map"),
-    ] {
+    for (plan, place) in all_plans().into_iter().zip(PLACES) {
         let (_kept, want) = whole(&plan);
         let store = server.open(place, &plan);
         let tiles = store.study().grid().tiles();
@@ -181,34 +179,12 @@ fn stopped_and_resumed_it_is_the_same() {
 #[test]
 fn damage_is_found_and_mended() {
     let Some(server) = Server::start() else { return };
-    let (plan, place) = (map(), "s3://studies/map");
-    let (_kept, want) = whole(&plan);
-    server.open(place, &plan).run(Part::ALL, &control(2)).unwrap();
-    let shelf = server.shelf(place);
-    let chunks: Vec<&String> = want.keys().filter(|key| key.starts_with("label/c/")).collect();
-    for (k, key) in chunks.iter().take(6).enumerate() {
-        let bytes = &want[*key];
-        match k % 3 {
-            0 => shelf.put(key, &bytes[..bytes.len() / 2]).unwrap(),
-            1 => shelf.put(key, &bytes.iter().map(|byte| byte ^ 4).collect::<Vec<u8>>()).unwrap(),
-            _ => server.ask("DELETE", &format!("/studies/map/{key}")),
-        }
-    }
-    let store = Store::open(server.shelf(place)).unwrap();
-    assert_eq!(store.verify(0, 0, &control(2)).unwrap().damage.len(), 6);
-    assert_eq!(store.run(Part::ALL, &control(2)).unwrap().mended, 6);
-    assert!(objects(shelf.as_ref()) == want);
-}
-
-#[test]
-fn damage_of_shards_is_found_and_mended() {
-    let Some(server) = Server::start() else { return };
-    for (plan, place) in sharded().into_iter().zip(["s3://studies/basin", "s3://studies/map"]) {
+    for (plan, place) in all_plans().into_iter().zip(PLACES) {
         let (_kept, want) = whole(&plan);
         server.open(place, &plan).run(Part::ALL, &control(2)).unwrap();
         let shelf = server.shelf(place);
-        let shards: Vec<&String> = want.keys().filter(|key| key.starts_with("label/c/")).collect();
-        for (k, key) in shards.iter().copied().enumerate() {
+        let files: Vec<&String> = want.keys().filter(|key| key.starts_with("label/c/")).collect();
+        for (k, key) in files.iter().copied().enumerate() {
             let bytes = &want[key];
             match k % 3 {
                 0 => shelf.put(key, &bytes[..bytes.len() / 2]).unwrap(),
@@ -227,13 +203,7 @@ fn damage_of_shards_is_found_and_mended() {
 #[test]
 fn two_at_once_do_no_harm() {
     let Some(server) = Server::start() else { return };
-    let [of_basin, of_map] = sharded();
-    for (plan, place) in [
-        (basin(), "s3://studies/basin"),
-        (map(), "s3://studies/map"),
-        (of_basin, "s3://studies/sharded/basin"),
-        (of_map, "s3://studies/sharded/map"),
-    ] {
+    for (plan, place) in all_plans().into_iter().zip(PLACES) {
         let (_kept, want) = whole(&plan);
         std::thread::scope(|scope| {
             for _ in 0..2 {

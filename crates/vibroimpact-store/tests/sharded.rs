@@ -41,40 +41,6 @@ fn shards_have_the_same_numbers_in_fewer_files() {
     }
 }
 
-#[test]
-fn parts_threads_and_budgets_give_the_same_bytes() {
-    for plan in sharded() {
-        let (_kept, want) = whole(&plan);
-        let folder = tempfile::tempdir().unwrap();
-        for index in [3, 1, 2] {
-            open(folder.path(), &plan).run(Part::new(index, 3).unwrap(), &control(2)).unwrap();
-        }
-        assert!(files(folder.path()) == want, "parts");
-        let folder = tempfile::tempdir().unwrap();
-        loop {
-            let store = open(folder.path(), &plan);
-            let ran = store.run_until(Part::ALL, Some(Instant::now()), &control(2)).unwrap();
-            let found = store.progress().unwrap();
-            assert_eq!((ran.computed, found.done), (1, found.tiles - ran.left));
-            // what is there can be read, and the rest has no values
-            assert!(store.column(0).is_ok() && store.verify(1, 0, &control(1)).unwrap().damage.is_empty());
-            if !ran.spent {
-                break;
-            }
-        }
-        assert!(files(folder.path()) == want, "budgets");
-        for _ in 0..3 {
-            let folder = tempfile::tempdir().unwrap();
-            std::thread::scope(|scope| {
-                for _ in 0..3 {
-                    scope.spawn(|| open(folder.path(), &plan).run(Part::ALL, &control(2)).unwrap());
-                }
-            });
-            assert!(files(folder.path()) == want, "three at once");
-        }
-    }
-}
-
 /// A folder that fails from a given change on, as for a process that is killed then.
 fn dying(folder: &Path, changes: u64) -> Arc<dyn Shelf> {
     let left = AtomicU64::new(changes);

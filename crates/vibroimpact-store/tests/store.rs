@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{Access, S, again, basin, control, files, map, open, stopped, watched, whole};
+use common::{Access, S, again, all_plans, basin, control, files, map, open, stopped, watched, whole};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -16,7 +16,7 @@ use vibroimpact_study::{Axis, Control, DiagramPlan, LyapunovPlan, MapPlan, Param
 
 #[test]
 fn the_same_bytes_for_any_threads_and_parts() {
-    for plan in [basin(), map()] {
+    for plan in all_plans() {
         let (_kept, want) = whole(&plan);
         for threads in [2, 3, 8] {
             let folder = tempfile::tempdir().unwrap();
@@ -37,8 +37,8 @@ fn every_kind_of_study_is_stored() {
     let u = SystemPlan { inverse_beta: Some(1.11), gap: 3.0, ..S };
     let gaps = || Axis::parameter(Parameter::Gap, "2:3:3".parse::<vibroimpact_study::Span>().unwrap());
     let exponents = LyapunovPlan { axes: vec![gaps()], impacts: Some(1000), ..LyapunovPlan::default() };
-    let diagram: DiagramPlan =
-        serde_json::from_str(r#"{"vary":"gap","over":"0:2:20","transient":50,"keep":8}"#).unwrap();
+    let over = "0:2:20".parse::<vibroimpact_study::Span>().unwrap();
+    let diagram: DiagramPlan = DiagramPlan { transient: 50, keep: 8, ..DiagramPlan::new(Parameter::Gap, over) };
     let refined =
         MapPlan { refine: Some(4), ..MapPlan::plane("0.6:1.4:13".parse().unwrap(), "0:2:9".parse().unwrap(), 2, 1) };
     for (system, task, field) in [
@@ -107,7 +107,7 @@ fn f10_points_are_counted_with_refinement() {
 /// A run whose time is spent begins no further tile, gets on by at least one tile, and changes no byte of the result.
 #[test]
 fn a_budget_ends_at_the_border_of_a_tile() {
-    for plan in [basin(), map()] {
+    for plan in all_plans() {
         let (_kept, want) = whole(&plan);
         let folder = tempfile::tempdir().unwrap();
         let tiles = open(folder.path(), &plan).study().grid().tiles();
@@ -117,6 +117,8 @@ fn a_budget_ends_at_the_border_of_a_tile() {
             assert_eq!((ran.computed, ran.found, ran.left), (1, done - 1, tiles - done));
             assert_eq!(ran.spent, done < tiles);
             assert_eq!(store.progress().unwrap().done, done);
+            // what is there can be read, and the rest has no values
+            assert!(store.column(0).is_ok() && store.verify(1, 0, &control(1)).unwrap().damage.is_empty());
         }
         assert!(files(folder.path()) == want);
         let ran = open(folder.path(), &plan).run_until(Part::ALL, Some(Instant::now()), &control(2)).unwrap();
@@ -268,7 +270,7 @@ fn fz3_a_chunk_that_differs_beyond_the_edge_of_the_grid_is_damaged() {
 
 #[test]
 fn two_at_once_do_no_harm() {
-    for plan in [basin(), map()] {
+    for plan in all_plans() {
         let (_kept, want) = whole(&plan);
         for _ in 0..5 {
             let folder = tempfile::tempdir().unwrap();

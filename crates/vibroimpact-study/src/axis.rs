@@ -1,11 +1,11 @@
 //! An axis of a grid: the quantity that varies and the values that it takes.
 
 use crate::limits::MOST_CELLS;
-use crate::name::{Name, Variable};
+use crate::name::{Name, Renamed, Variable, renamed};
 use crate::{Parameter, PlanError, Span, StartPlan, SystemPlan, Unit};
 use core::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize};
 use std::borrow::Cow;
 use vibroimpact::math::sort_by;
 
@@ -91,29 +91,6 @@ impl Coordinate {
     #[must_use]
     pub const fn is_start(self) -> bool {
         !matches!(self, Self::Parameter(_))
-    }
-}
-
-impl Serialize for Coordinate {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        self.name().serialize(to)
-    }
-}
-
-impl schemars::JsonSchema for Coordinate {
-    fn schema_name() -> Cow<'static, str> {
-        "Coordinate".into()
-    }
-
-    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        let names: Vec<&str> = crate::parameter_names().into_iter().chain(["x", "v", "phase"]).collect();
-        schemars::json_schema!({ "description": "What varies.", "type": "string", "enum": names })
-    }
-}
-
-impl<'de> Deserialize<'de> for Coordinate {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        crate::name::deserialize(from)
     }
 }
 
@@ -276,12 +253,7 @@ pub struct Axis<V = Coordinate> {
     pub over: Values,
 }
 
-impl<V> Axis<V> {
-    /// The same with another name of what varies.
-    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<Axis<W>, E> {
-        Ok(Axis { vary: name(&self.vary)?, over: self.over.clone() })
-    }
-}
+renamed!(Axis: names vary, parts, others over);
 
 impl<V> Axis<V> {
     /// The values of all axes at point number `k` of their grid; the first axis varies fastest.
@@ -458,13 +430,13 @@ mod tests {
 
     #[test]
     fn ranges_and_lists_survive_json() {
-        let axis = |over| Axis { vary: Coordinate::V, over };
+        let axis = |over| Axis { vary: Variable::from(Coordinate::V), over };
         for (text, axis) in [
             (r#"{"vary":"v","over":"-1:2:7"}"#, axis(Values::Span("-1:2:7".parse().unwrap()))),
             (r#"{"vary":"v","over":"0.1:10:5:log"}"#, axis(Values::Span("0.1:10:5:log".parse().unwrap()))),
             (r#"{"vary":"v","over":[0.5,0.25]}"#, axis(Values::Listed(vec![0.5, 0.25]))),
         ] {
-            assert_eq!(serde_json::from_str::<Axis>(text).unwrap(), axis);
+            assert_eq!(serde_json::from_str::<Axis<Variable>>(text).unwrap(), axis);
             assert_eq!(serde_json::to_string(&axis).unwrap(), text);
         }
         for (text, word) in [
@@ -474,7 +446,9 @@ mod tests {
             (r#"{"vary":"v","over":7}"#, "or a list of numbers"),
             (r#"{"vary":"v"}"#, "over"),
         ] {
-            let message = serde_json::from_str::<Axis>(text).unwrap_err().to_string();
+            let read = serde_json::from_str::<Axis<Variable>>(text).map_err(|error| error.to_string());
+            let typed = read.and_then(|axis| typed_axes::<Coordinate>(&[axis]).map_err(|error| error.to_string()));
+            let message = typed.unwrap_err();
             assert!(message.contains(word), "{message}");
         }
     }

@@ -4,7 +4,7 @@
 use crate::chosen::Chosen;
 use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Shown, SweepDirection};
 use crate::dynamics::{CycleOf, Dynamics, PointOf, Setup};
-use crate::name::{Name, Written};
+use crate::name::{Name, Written, renamed};
 use crate::orbit_line::Solution;
 use crate::{Control, Cut, DiagramPlan, Parameter, PlanError, RunError, Span, Stretch, Target, limits};
 use serde::{Deserialize, Serialize};
@@ -29,7 +29,7 @@ pub struct BranchPlan<V = Parameter> {
     pub label: Option<String>,
     /// The number that varies, from its value in the system.
     #[serde(with = "crate::name")]
-    #[schemars(with = "Written<V>")]
+    #[schemars(with = "Written")]
     pub vary: V,
     /// The other end of its range.
     pub to: f64,
@@ -59,20 +59,14 @@ const fn points() -> u32 {
     DEFAULT_BRANCH_POINTS
 }
 
+renamed!(BranchPlan: names vary, parts also, others label to back orbit follow points);
+
 impl<V> BranchPlan<V> {
     /// The branch of the motion from the start, up to a value.
     #[must_use]
     pub const fn new(vary: V, to: f64) -> Self {
         let points = DEFAULT_BRANCH_POINTS;
         Self { label: None, vary, to, back: None, also: None, orbit: None, follow: 0, points }
-    }
-
-    /// The same with other names of the numbers that vary.
-    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<BranchPlan<W>, E> {
-        let Self { label, to, back, orbit, follow, points, .. } = self;
-        let also = self.also.as_ref().map(|also| also.named(name)).transpose()?;
-        let (label, vary) = (label.clone(), name(&self.vary)?);
-        Ok(BranchPlan { label, vary, to: *to, back: *back, also, orbit: *orbit, follow: *follow, points: *points })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::chosen::Chosen;
 use crate::dynamics::{CycleOf, Dynamics, PointOf, Setup, not_stopped};
-use crate::name::Name;
+use crate::name::{Name, renamed};
 use crate::orbit_line::{Along, OrbitLine, Solution};
 use crate::{Control, Parameter, PlanError, RunError, Stretch, limits};
 use serde::{Deserialize, Serialize};
@@ -72,18 +72,13 @@ pub struct CurvePlan<V = Parameter> {
     pub points: Option<u32>,
 }
 
+renamed!(CurvePlan: names, parts vary and, others label kind orbit event points);
+
 impl<V> CurvePlan<V> {
     /// The curve through the nearest event of the orbit with a label.
     #[must_use]
     pub fn new(label: &str, kind: FollowedEvent, vary: Stretch<V>, and: Stretch<V>) -> Self {
         Self { label: Some(label.to_owned()), kind, vary, and, orbit: None, event: None, points: None }
-    }
-
-    /// The same with other names of the numbers that vary.
-    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<CurvePlan<W>, E> {
-        let Self { label, kind, orbit, event, points, .. } = self;
-        let (label, vary, and) = (label.clone(), self.vary.named(name)?, self.and.named(name)?);
-        Ok(CurvePlan { label, kind: *kind, vary, and, orbit: *orbit, event: *event, points: *points })
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::axis::Coordinate;
 use crate::dynamics::{Dynamics, Setup};
 use crate::map::{check_impacts, options};
+use crate::name::renamed;
 use crate::{Control, PlanError, RunError, StartPlan, Stopped, limits};
 use serde::{Deserialize, Serialize};
 use vibroimpact::edge::{Edge, EdgeError, EdgeOptions, edge_while};
@@ -40,14 +41,10 @@ pub struct PlacePlan<V = Coordinate> {
     pub value: f64,
 }
 
-impl<V> EdgePlan<V> {
-    /// The same with other names of coordinates.
-    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<EdgePlan<W>, E> {
-        let place = |one: &PlacePlan<V>| Ok(PlacePlan { coordinate: name(&one.coordinate)?, value: one.value });
-        let other = self.other.iter().map(place).collect::<Result<_, E>>()?;
-        Ok(EdgePlan { start: self.start, other, laps: self.laps, impacts: self.impacts })
-    }
+renamed!(EdgePlan: names, parts other, others start laps impacts);
+renamed!(PlacePlan: names coordinate, parts, others value);
 
+impl<V> EdgePlan<V> {
     /// The largest number of laps.
     #[must_use]
     pub fn laps(&self) -> u32 {

@@ -141,6 +141,26 @@ impl Column {
         }
     }
 
+    /// Value number `k`; `None` if there is none.
+    #[must_use]
+    pub fn get(&self, k: usize) -> Option<f64> {
+        match self {
+            Self::I8(values) => values.get(k).copied().map(f64::from),
+            Self::I32(values) => values.get(k).copied().map(f64::from),
+            Self::F64(values) => values.get(k).copied(),
+        }
+    }
+
+    /// Writes value number `k`, of a column of integers one of its integers.
+    #[allow(clippy::cast_possible_truncation)] // a value of the column
+    pub(crate) fn set(&mut self, k: usize, value: f64) {
+        match self {
+            Self::I8(values) => values[k] = value as i8,
+            Self::I32(values) => values[k] = value as i32,
+            Self::F64(values) => values[k] = value,
+        }
+    }
+
     /// How often each number occurs in a column of integers, the smallest number first; empty for real numbers.
     #[must_use]
     pub fn counts(&self) -> Vec<(i32, u64)> {

@@ -27,6 +27,18 @@ pub(crate) fn check<T: PartialOrd + Display + Copy>(
     if range.contains(&given) { Ok(()) } else { Err(PlanError::outside(name, given, (*range.start(), *range.end()))) }
 }
 
+/// The same of a number that may be absent.
+///
+/// # Errors
+/// As [`check`].
+pub(crate) fn given<T: PartialOrd + Display + Copy>(
+    name: &'static str,
+    given: Option<T>,
+    range: RangeInclusive<T>,
+) -> Result<(), PlanError> {
+    given.map_or(Ok(()), |given| check(name, given, range))
+}
+
 /// Checks a largest number of points of a branch or curve.
 ///
 /// # Errors
@@ -43,7 +55,7 @@ const MOST_SECTION: u64 = 100_000;
 /// # Errors
 /// As [`check`].
 pub(crate) fn section(points: Option<u64>) -> Result<(), PlanError> {
-    points.map_or(Ok(()), |given| check("points", given, 1..=MOST_SECTION))
+    given("points", points, 1..=MOST_SECTION)
 }
 
 /// Checks a number of starts.
@@ -65,8 +77,8 @@ pub(crate) fn measured(
 ) -> Result<(), PlanError> {
     const HINT: &str =
         "\nhint: the error bar shrinks with the square root of the number; 100000 give two or three digits";
-    impacts.map_or(Ok(()), |given| check("impacts", given, range)).map_err(|error| error.hinted(HINT))?;
-    transient.map_or(Ok(()), |given| check("transient", given, 0..=MOST_TRANSIENT))
+    given("impacts", impacts, range).map_err(|error| error.hinted(HINT))?;
+    given("transient", transient, 0..=MOST_TRANSIENT)
 }
 
 /// Maximum number of impacts or periods of a transient; it takes a few seconds for each value.

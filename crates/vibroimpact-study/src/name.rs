@@ -3,7 +3,6 @@
 
 use crate::{Coordinate, Parameter, PlanError, Quantity, parameter_names};
 use core::fmt;
-use core::marker::PhantomData;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -39,13 +38,51 @@ pub trait Name: Clone + PartialEq + fmt::Debug {
     fn key(&self) -> &'static str {
         "parameter"
     }
+}
 
-    /// The schema of names in a plan.
-    #[must_use]
-    fn schema() -> Schema {
-        json_schema!({ "type": "string" })
+/// A part of a plan that has names of what varies.
+pub(crate) trait Renamed<V> {
+    /// The same with other names.
+    type With<W>;
+
+    /// The same with the names that `name` gives instead of its own.
+    fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<Self::With<W>, E>;
+}
+
+impl<V, T: Renamed<V>> Renamed<V> for Vec<T> {
+    type With<W> = Vec<T::With<W>>;
+
+    fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<Self::With<W>, E> {
+        self.iter().map(|part| part.named(name)).collect()
     }
 }
+
+impl<V, T: Renamed<V>> Renamed<V> for Option<T> {
+    type With<W> = Option<T::With<W>>;
+
+    fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<Self::With<W>, E> {
+        self.as_ref().map(|part| part.named(name)).transpose()
+    }
+}
+
+/// Says which fields of a part of a plan are names of what varies, which fields are parts with such names, and which have none.
+macro_rules! renamed {
+    ($part:ident: names $($name:ident)*, parts $($within:ident)*, others $($other:ident)*) => {
+        impl<V> $crate::name::Renamed<V> for $part<V> {
+            type With<W> = $part<W>;
+
+            #[allow(clippy::clone_on_copy, reason = "some fields are texts or lists")]
+            fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<$part<W>, E> {
+                Ok($part {
+                    $($name: name(&self.$name)?,)*
+                    $($within: self.$within.named(name)?,)*
+                    $($other: self.$other.clone(),)*
+                })
+            }
+        }
+    };
+}
+pub(crate) use renamed;
 
 impl Name for Parameter {
     fn text(&self) -> &str {
@@ -56,10 +93,6 @@ impl Name for Parameter {
         Self::from_name(name).ok_or_else(|| {
             PlanError::Name(format!("`{}` is no parameter; there are {}", short(name), parameter_names().join(", ")))
         })
-    }
-
-    fn schema() -> Schema {
-        json_schema!({ "type": "string", "enum": parameter_names() })
     }
 }
 
@@ -90,10 +123,6 @@ impl Name for Quantity {
 
     fn of(name: &str) -> Result<Self, PlanError> {
         Self::from_name(name).ok_or_else(|| PlanError::Name(crate::quantity::unknown(name)))
-    }
-
-    fn schema() -> Schema {
-        json_schema!({ "type": "string", "enum": Self::ALL.map(Self::name) })
     }
 }
 
@@ -126,14 +155,6 @@ impl Name for Variable {
 
     fn key(&self) -> &'static str {
         if let Self::Path(_) = self { "path" } else { "parameter" }
-    }
-
-    fn schema() -> Schema {
-        let known: Vec<&str> = parameter_names().into_iter().chain(["x", "v", "phase"]).collect();
-        json_schema!({
-            "description": "A parameter of an oscillator or a coordinate of its start, or the path of a number of a machine or of its start.",
-            "anyOf": [{ "type": "string", "enum": known }, { "type": "string" }],
-        })
     }
 }
 
@@ -182,7 +203,11 @@ impl JsonSchema for Variable {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        Self::schema()
+        let known: Vec<&str> = parameter_names().into_iter().chain(["x", "v", "phase"]).collect();
+        json_schema!({
+            "description": "A parameter of an oscillator or a coordinate of its start, or the path of a number of a machine or of its start.",
+            "anyOf": [{ "type": "string", "enum": known }, { "type": "string" }],
+        })
     }
 }
 
@@ -199,10 +224,10 @@ pub(crate) fn deserialize<'de, N: Name, D: Deserializer<'de>>(from: D) -> Result
     N::of(&String::deserialize(from)?).map_err(D::Error::custom)
 }
 
-/// A name for the schema of plans.
-pub(crate) struct Written<N>(PhantomData<N>);
+/// A name for the schema of plans, where it is written out at each place.
+pub(crate) struct Written;
 
-impl<N: Name> JsonSchema for Written<N> {
+impl JsonSchema for Written {
     fn inline_schema() -> bool {
         true
     }
@@ -211,7 +236,7 @@ impl<N: Name> JsonSchema for Written<N> {
         "Name".into()
     }
 
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        N::schema()
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        Variable::json_schema(generator)
     }
 }

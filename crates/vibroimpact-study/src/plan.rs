@@ -60,18 +60,8 @@ pub(crate) fn hash_of(plan: &impl Serialize) -> String {
     hmac_sha256::Hash::hash(&text).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Checks the number of points of a tile along one axis.
-pub(crate) fn check_tile(tile: Option<u32>) -> Result<(), PlanError> {
-    tile.map_or(Ok(()), |given| limits::check("tile", given, 1..=MOST_TILE))
-}
-
 /// Maximum number of tiles of a shard along one axis.
 const MOST_SHARD: u32 = 1024;
-
-/// Checks the number of tiles of a shard along one axis.
-pub(crate) fn check_shard(shard: Option<u32>) -> Result<(), PlanError> {
-    shard.map_or(Ok(()), |given| limits::check("shard", given, 1..=MOST_SHARD))
-}
 
 impl Plan {
     /// A plan of the current version.
@@ -153,8 +143,8 @@ impl Plan {
         if self.version != PLAN_VERSION {
             return Err(PlanError::Version(self.version));
         }
-        check_tile(self.tile)?;
-        check_shard(self.shard)?;
+        limits::given("tile", self.tile, 1..=MOST_TILE)?;
+        limits::given("shard", self.shard, 1..=MOST_SHARD)?;
         match &self.system {
             System::Oscillator(system) => {
                 if let Some(units) = &self.units {

@@ -1,7 +1,7 @@
 //! The regions of a plane of two parameters in which a motion exists and in which it is stable.
 
 use crate::dynamics::{Dynamics, Setup};
-use crate::name::Name;
+use crate::name::{Name, renamed};
 use crate::{Control, Parameter, PlanError, RunError, Stretch, SystemPlan, limits, tiles};
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::machine;
@@ -35,13 +35,9 @@ pub(crate) const fn grid() -> u32 {
     DEFAULT_GRID
 }
 
-impl<V> RegionPlan<V> {
-    /// The same with other names of the numbers that vary.
-    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<RegionPlan<W>, E> {
-        let (label, across, up) = (self.label.clone(), self.across.named(name)?, self.up.named(name)?);
-        Ok(RegionPlan { label, across, up, grid: self.grid })
-    }
+renamed!(RegionPlan: names, parts across up, others label grid);
 
+impl<V> RegionPlan<V> {
     /// Whether it is the motion without impacts, whose region follows from its amplitude.
     #[must_use]
     pub fn clears(&self) -> bool {

@@ -1,6 +1,6 @@
 //! A number and its range.
 
-use crate::name::{Name, Written};
+use crate::name::{Name, Written, renamed};
 use crate::{BodyNumber, Parameter, PlanError, SystemPlan};
 use core::ops::RangeInclusive;
 use serde::ser::SerializeStruct;
@@ -14,7 +14,7 @@ use vibroimpact::continuation::Frame;
 pub struct Stretch<V = Parameter> {
     /// The parameter of an oscillator; `path` is that of a number of a machine.
     #[serde(with = "crate::name", alias = "path")]
-    #[schemars(with = "Written<V>")]
+    #[schemars(with = "Written")]
     pub parameter: V,
     /// Its first value.
     pub from: f64,
@@ -29,7 +29,7 @@ pub struct Stretch<V = Parameter> {
 pub struct Target<V = Parameter> {
     /// The parameter of an oscillator; `path` is that of a number of a machine.
     #[serde(with = "crate::name", alias = "path")]
-    #[schemars(with = "Written<V>")]
+    #[schemars(with = "Written")]
     pub parameter: V,
     /// Where it goes.
     pub to: f64,
@@ -65,19 +65,8 @@ impl<V: Name> Serialize for Target<V> {
     }
 }
 
-impl<V> Stretch<V> {
-    /// The same with another name of the number.
-    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<Stretch<W>, E> {
-        Ok(Stretch { parameter: name(&self.parameter)?, from: self.from, to: self.to })
-    }
-}
-
-impl<V> Target<V> {
-    /// The same with another name of the number.
-    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<Target<W>, E> {
-        Ok(Target { parameter: name(&self.parameter)?, to: self.to })
-    }
-}
+renamed!(Stretch: names parameter, parts, others from to);
+renamed!(Target: names parameter, parts, others to);
 
 impl Stretch {
     /// Its values.

@@ -1,7 +1,7 @@
 //! The tasks: what is computed for a system. What varies is a name, which each task reads as that of a number of its system.
 
 use crate::diagram::ShowText;
-use crate::name::{Name, Variable};
+use crate::name::{Name, Renamed, Variable};
 use crate::{
     BasinPlan, BranchPlan, CurvePlan, DiagramPlan, EdgePlan, LyapunovPlan, ManyPlan, MapPlan, MarginsPlan, PlanError,
     RegionPlan, ResponsePlan, SimulatePlan, StartPlan,

@@ -1,5 +1,6 @@
 //! Machine files, also with difficult numbers, and paths of numbers in machines.
 
+use crate::machines::file;
 use crate::plan::Written;
 use crate::values::ProptestText;
 use proptest::prelude::*;
@@ -32,8 +33,8 @@ pub(super) const STARTS: &[&str] = &["phase", "q.first", "qdot.first", "q.head",
 /// The text of a machine of the catalogue, or of a family of degenerate machines; of some, parts are other ones or missing.
 pub(super) fn files() -> ProptestText {
     let of_catalogue = prop::sample::select(CATALOGUE).prop_map(|entry| entry.text.to_owned());
-    let of_family =
-        (0..FAMILIES.len(), any::<u16>()).prop_map(|(family, seed)| FAMILIES[family].case(seed.into()).toml());
+    let of_family = (0..FAMILIES.len(), any::<u16>())
+        .prop_map(|(family, seed)| file(&FAMILIES[family].case(seed.into())).to_toml());
     let tree =
         prop_oneof![1 => of_catalogue, 2 => of_family].prop_map(|text| toml::from_str(&text).unwrap_or_default());
     Written::of(tree.boxed()).prop_map(|written| written.toml()).boxed()

@@ -38,6 +38,12 @@ pub fn sharded() -> [Plan; 2] {
     [Plan { shard: Some(2), ..basin() }, Plan { shard: Some(3), ..map() }]
 }
 
+/// The plans of 20 and 12 tiles, without shards and with them.
+pub fn all_plans() -> [Plan; 4] {
+    let [of_basin, of_map] = sharded();
+    [basin(), map(), of_basin, of_map]
+}
+
 /// The store of a plan in a folder.
 pub fn open(folder: &Path, plan: &Plan) -> Store {
     Store::create(Arc::new(Folder::new(folder)), plan).unwrap()

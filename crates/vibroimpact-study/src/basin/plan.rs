@@ -3,6 +3,7 @@
 use crate::axis::{self, Axis, Coordinate};
 use crate::machine::StartAxis;
 use crate::map::{check_impacts, check_refine, options};
+use crate::name::Renamed;
 use crate::quantity::{Quantity, check_fields};
 use crate::{PlanError, PointsPlan, Span, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
@@ -55,8 +56,7 @@ impl<V, Q> BasinPlan<V, Q> {
         quantity: &impl Fn(&Q) -> Result<R, E>,
     ) -> Result<BasinPlan<W, R>, E> {
         let Self { start, refine, impacts, transient, .. } = self;
-        let axes = self.axes.iter().map(|axis| axis.named(name)).collect::<Result<_, E>>()?;
-        let points = self.points.as_ref().map(|points| points.named(name)).transpose()?;
+        let (axes, points) = (self.axes.named(name)?, self.points.named(name)?);
         let fields = self.fields.iter().map(quantity).collect::<Result<_, E>>()?;
         let (start, refine, impacts, transient) = (*start, *refine, *impacts, *transient);
         Ok(BasinPlan { axes, points, start, refine, impacts, fields, transient })
@@ -91,29 +91,18 @@ impl BasinPlan {
     #[must_use]
     pub fn plane(x: Span, v: Span, phase: f64) -> Self {
         let axes = vec![Axis::new(Coordinate::X, x), Axis::new(Coordinate::V, v)];
-        Self {
-            axes,
-            points: None,
-            start: Some(StartPlan { phase, ..StartPlan::default() }),
-            refine: None,
-            impacts: None,
-            fields: Vec::new(),
-            transient: false,
-        }
+        Self::usual(axes, None, StartPlan { phase, ..StartPlan::default() })
     }
 
     /// One start for each point.
     #[must_use]
-    pub const fn of_points(points: PointsPlan, start: StartPlan) -> Self {
-        Self {
-            axes: Vec::new(),
-            points: Some(points),
-            start: Some(start),
-            refine: None,
-            impacts: None,
-            fields: Vec::new(),
-            transient: false,
-        }
+    pub fn of_points(points: PointsPlan, start: StartPlan) -> Self {
+        Self::usual(Vec::new(), Some(points), start)
+    }
+
+    fn usual(axes: Vec<Axis>, points: Option<PointsPlan>, start: StartPlan) -> Self {
+        let (start, fields) = (Some(start), Vec::new());
+        Self { axes, points, start, refine: None, impacts: None, fields, transient: false }
     }
 
     /// Checks everything that can be checked without running the plan.

@@ -19,25 +19,17 @@ pub enum MotionKind {
 }
 
 impl MotionKind {
+    /// All of them, in the order of the numbers that stand for them in stores.
+    const ALL: [Self; 4] = [Self::NoImpact, Self::Impacts, Self::Stuck, Self::Undecided];
+
     /// The number that stands for it in stores.
-    pub(crate) const fn code(self) -> i8 {
-        match self {
-            Self::NoImpact => 0,
-            Self::Impacts => 1,
-            Self::Stuck => 2,
-            Self::Undecided => 3,
-        }
+    pub(crate) fn code(self) -> usize {
+        Self::ALL.iter().position(|kind| *kind == self).unwrap_or(0)
     }
 
     /// The kind for which a number stands; `None` for a motion that was not computed.
-    pub(crate) const fn of_code(code: i8) -> Option<Self> {
-        Some(match code {
-            0 => Self::NoImpact,
-            1 => Self::Impacts,
-            2 => Self::Stuck,
-            3 => Self::Undecided,
-            _ => return None,
-        })
+    pub(crate) fn of_code(code: i8) -> Option<Self> {
+        Self::ALL.get(usize::try_from(code).ok()?).copied()
     }
 }
 

@@ -10,6 +10,7 @@ mod after_transient;
 mod follow;
 mod impacts;
 mod machine;
+mod oscillator;
 mod plan;
 mod settled;
 mod strobes;
@@ -17,14 +18,13 @@ mod strobes;
 pub(crate) use after_transient::{EVENTS_EACH, at_phase_zero};
 pub(crate) use follow::{AfterTransient, SAME, carried_state};
 pub use follow::{DiagramPoint, MotionKind};
-pub(crate) use machine::step as machine_step;
+pub(crate) use machine::point as machine_point;
+pub(crate) use oscillator::point;
 pub use plan::{DEFAULT_KEEP, DEFAULT_TRANSIENT, DiagramPlan, Show, ShowText, Shown, SweepDirection};
 pub(crate) use plan::{check_order, check_shown};
 pub(crate) use settled::state_on;
 
-use crate::{Parameter, PlanError, SystemPlan, Values};
-use vibroimpact::Start;
-use vibroimpact::verdict::{StartBox, scattered_starts};
+use crate::{Parameter, Values};
 
 /// Identifies a motion among those at one value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -84,28 +84,4 @@ pub(crate) fn carried(over: &Values, direction: SweepDirection, row: u64, j: u32
 /// The number of values. A checked plan has a million at most.
 pub(crate) fn number_of(over: &Values) -> u32 {
     u32::try_from(over.count()).unwrap_or(u32::MAX)
-}
-
-/// The motion at one value, with the oscillator and the state to carry to the next value.
-pub(crate) fn step(
-    system: &SystemPlan,
-    plan: &DiagramPlan,
-    (index, sweep): (u32, Sweep),
-    before: Option<(SystemPlan, Start)>,
-) -> Result<(DiagramStep, (SystemPlan, Start)), PlanError> {
-    let there = plan.system(system, index)?;
-    let osc = there.oscillator()?;
-    let start = match (plan.direction, sweep, before) {
-        (SweepDirection::Scatter { seed, .. }, Sweep::Start(k), _) => {
-            scattered_starts(&osc, StartBox::natural(&osc), seed, k)
-        }
-        (_, _, Some((old, left))) => carried_state(left, &old, &there)?,
-        (_, _, None) => Start::at_rest(&osc),
-    };
-    let AfterTransient { kind, points, last } = match plan.show {
-        Show::Velocity => impacts::after_transients(&osc, start, plan.transient, plan.keep),
-        Show::Strobe => strobes::after_transients(&osc, start, plan.transient, plan.keep),
-        Show::Quantity(quantity) => settled::after_transients(&osc, start, quantity),
-    };
-    Ok((DiagramStep { index, sweep, kind, points }, (there, last)))
 }

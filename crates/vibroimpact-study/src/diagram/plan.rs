@@ -1,11 +1,10 @@
 //! The plan of an orbit diagram: the parameter and its values, the starts, and the points to show.
 
 use crate::cut::in_proportion;
-use crate::name::{Name, Written};
+use crate::name::{Name, Renamed, Written};
 use crate::quantity::Quantity;
 use crate::{Cut, Parameter, PlanError, Span, Stretch, SystemPlan, Values, limits};
 use serde::{Deserialize, Serialize};
-use vibroimpact::Oscillator;
 
 /// Default number of impacts or forcing periods before the points shown.
 pub const DEFAULT_TRANSIENT: u64 = 500;
@@ -22,7 +21,7 @@ pub const DEFAULT_KEEP: u64 = 64;
 pub struct DiagramPlan<V = Parameter, S = Show> {
     /// The number that varies; its value in the system counts for nothing.
     #[serde(with = "crate::name")]
-    #[schemars(with = "Written<V>")]
+    #[schemars(with = "Written")]
     pub vary: V,
     /// Its values, which rise or fall.
     pub over: Values,
@@ -63,8 +62,7 @@ const fn keep() -> u64 {
 }
 
 /// What is shown of a motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Show {
     /// Phase and speed of arrival of its impacts.
     #[default]
@@ -72,11 +70,7 @@ pub enum Show {
     /// Position and velocity once in every forcing period, at phase 0.
     Strobe,
     /// One value of the settled motion: that of this quantity.
-    Quantity(
-        #[serde(with = "crate::name")]
-        #[schemars(with = "Written<Quantity>")]
-        Quantity,
-    ),
+    Quantity(Quantity),
 }
 
 /// What is shown as a plan has it. Of an oscillator it is `velocity`, `strobe` or a quantity. Of a machine it is `speed`, the phase
@@ -273,7 +267,7 @@ impl<V, S> DiagramPlan<V, S> {
         show: &impl Fn(&S) -> Result<T, E>,
     ) -> Result<DiagramPlan<W, T>, E> {
         let Self { direction, transient, keep, .. } = self;
-        let also = self.also.as_ref().map(|also| also.named(name)).transpose()?;
+        let also = self.also.named(name)?;
         let (vary, over, show) = (name(&self.vary)?, self.over.clone(), show(&self.show)?);
         Ok(DiagramPlan { vary, over, also, show, direction: *direction, transient: *transient, keep: *keep })
     }
@@ -315,18 +309,10 @@ impl DiagramPlan {
         check_shown(&self.over, self.direction, (self.transient, self.keep))
     }
 
-    /// The oscillator at value number `k`. Parameters that do not vary are those of `system`.
+    /// The system at value number `k`. Parameters that do not vary are those of `system`.
     ///
     /// # Errors
     /// [`PlanError`] for a value that gives no valid system.
-    pub fn oscillator(&self, system: &SystemPlan, k: u32) -> Result<Oscillator, PlanError> {
-        self.system(system, k)?.oscillator()
-    }
-
-    /// The system at value number `k`.
-    ///
-    /// # Errors
-    /// As [`Self::oscillator`].
     pub fn system(&self, system: &SystemPlan, k: u32) -> Result<SystemPlan, PlanError> {
         system.with_all(self.cut().names().copied().zip(self.values(k)))
     }
@@ -335,7 +321,7 @@ impl DiagramPlan {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Plan, Task};
+    use crate::{Plan, Task, Variable};
 
     #[test]
     fn a_plan_survives_json_and_short_ones_are_filled_in() {
@@ -347,10 +333,11 @@ mod tests {
         let plan = Plan::new(system, Task::from(task));
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
-        let short: DiagramPlan = serde_json::from_str(r#"{"vary": "inverse_beta", "over": "1:2:3"}"#).unwrap();
+        let read = |text| serde_json::from_str::<DiagramPlan<Variable, ShowText>>(text).unwrap();
+        let short: DiagramPlan = read(r#"{"vary": "inverse_beta", "over": "1:2:3"}"#).typed().unwrap();
         assert_eq!((short.direction, short.show), (SweepDirection::Both, Show::Velocity));
         assert_eq!((short.transient, short.keep), (DEFAULT_TRANSIENT, DEFAULT_KEEP));
-        let listed: DiagramPlan = serde_json::from_str(r#"{"vary": "gap", "over": [0.5, 0.7, 1.5]}"#).unwrap();
+        let listed = read(r#"{"vary": "gap", "over": [0.5, 0.7, 1.5]}"#);
         assert_eq!(listed.over, Values::Listed(vec![0.5, 0.7, 1.5]));
         assert!(serde_json::to_string(&listed).unwrap().starts_with(r#"{"vary":"gap","over":[0.5,0.7,1.5],"#));
         for wrong in

@@ -1,7 +1,7 @@
 //! A machine, as tasks ask for it.
 
 use super::{Dynamics, Setup};
-use crate::diagram::{Diagram, DiagramPlan};
+use crate::diagram::{DiagramPoint, machine_point};
 use crate::in_memory::{DIAGRAM_TILE, diagram, machine_attractors, machine_basin, machine_map, machine_points};
 use crate::lyapunov::section;
 use crate::machine::{MachineSource, StartAxis, VariedMachine};
@@ -10,9 +10,9 @@ use crate::margins::{MotionBox, ParameterMargin};
 use crate::orbit_line::OrbitLine;
 use crate::region::Over;
 use crate::simulate::simulate_machine;
-use crate::study::{SweepFill, machine_diagram_of};
+use crate::study::SweepFill;
 use crate::{
-    Column, Control, CurvePlan, Cut, DEFAULT_BRANCH_POINTS, FollowedEvent, LyapunovPlan, MarginsPlan, Orbit, PlanError,
+    Control, CurvePlan, Cut, DEFAULT_BRANCH_POINTS, FollowedEvent, LyapunovPlan, MarginsPlan, Orbit, PlanError,
     PlanResults, Results, RunError, ScaledParameter, Scope, SimulatePlan, Simulated, Stopped, Stretch, Task,
 };
 use vibroimpact::Label;
@@ -95,8 +95,6 @@ impl Dynamics for MachineSource {
     }
 
     fn placed(machine: &Machine, mut start: Start, path: &String, value: f64) -> Result<Start, PlanError> {
-        start.q.resize(machine.n(), 0.0);
-        start.qdot.resize(machine.n(), 0.0);
         StartAxis::of(machine, path)?.set(&mut start, value);
         // contacts and digits belong to the state before
         Ok(Start { contacts: Vec::new(), exact: Vec::new(), ..start })
@@ -172,15 +170,15 @@ impl Dynamics for MachineSource {
             Task::Map(plan) => Results::Map(machine_map(source, &plan.typed()?, control)?),
             Task::SettleMany(plan) => Results::Map(machine_points(source, problem, &plan.typed()?, control)?),
             Task::Diagram(plan) => {
-                let task = SweepFill::of_machine(source, &plan.typed()?, Some(DIAGRAM_TILE));
+                let task = SweepFill::new(source, &plan.typed()?, Some(DIAGRAM_TILE));
                 Results::Diagram(diagram(&task, control)?)
             }
             other => return Err(PlanError::NoMachineStudy(other.verb()).into()),
         })
     }
 
-    fn diagram_of(plan: &DiagramPlan<String, String>, columns: &[Column]) -> Diagram<String, String> {
-        machine_diagram_of(plan, columns)
+    fn shown_point(show: &String, numbers: &[f64]) -> Option<DiagramPoint> {
+        machine_point(show, numbers)
     }
 
     fn number(&self, name: &String) -> Result<f64, PlanError> {

@@ -8,11 +8,12 @@ pub use machine::{machine_label, quantity_path};
 #[cfg(test)]
 pub(crate) use oscillator::at_rest;
 
-use crate::diagram::{Diagram, DiagramPlan, ShowText, Shown};
+use crate::diagram::{Diagram, DiagramPlan, DiagramPoint, ShowText, Shown};
 use crate::margins::{MotionBox, ParameterMargin};
 use crate::name::{Name, Variable};
 use crate::orbit_line::{Along, OrbitLine, Solution};
 use crate::region::Over;
+use crate::study::diagram_of;
 use crate::{
     Chosen, Column, Control, CurvePlan, Cut, FollowedEvent, LyapunovPlan, MarginsPlan, Orbit, OrbitNumber, PlanError,
     PlanResults, Results, RunError, ScaledParameter, Scope, SimulatePlan, Simulated, Stopped, Stretch, Task,
@@ -83,8 +84,14 @@ pub trait Dynamics: Clone + Debug {
     /// The result of a task over a grid or over points.
     fn over_grid(of: &Setup<'_, Self>, task: &Task, control: &Control<'_>) -> Result<Results<Self>, RunError>;
 
+    /// The point of an orbit diagram from its numbers in the columns of a study; `None` if there is none.
+    fn shown_point(show: &Self::Shown, numbers: &[f64]) -> Option<DiagramPoint>;
+
     /// The orbit diagram from the columns of its study. Motions of tiles that are not complete are left out.
-    fn diagram_of(plan: &DiagramPlan<Self::Name, Self::Shown>, columns: &[Column]) -> Diagram<Self::Name, Self::Shown>;
+    fn diagram_of(plan: &DiagramPlan<Self::Name, Self::Shown>, columns: &[Column]) -> Diagram<Self::Name, Self::Shown> {
+        diagram_of::<Self>(plan, columns)
+    }
+
     /// A start with another value of a coordinate.
     fn placed(
         system: &Self::System,

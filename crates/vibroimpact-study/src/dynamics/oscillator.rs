@@ -1,7 +1,7 @@
 //! An oscillator, as tasks ask for it.
 
 use super::{Dynamics, Setup};
-use crate::diagram::{Diagram, DiagramPlan, Show, carried_state, state_on};
+use crate::diagram::{DiagramPoint, Show, carried_state, point, state_on};
 use crate::in_memory::{DIAGRAM_TILE, attractors, basin, diagram, map};
 use crate::map::options;
 use crate::margins::{MotionBox, ParameterMargin, tried_box};
@@ -9,9 +9,9 @@ use crate::orbit_line::OrbitLine;
 use crate::region::Over;
 use crate::simulate::simulate;
 use crate::stretch::check_plane;
-use crate::study::{SweepFill, diagram_of};
+use crate::study::SweepFill;
 use crate::{
-    Column, Control, Coordinate, CurvePlan, Cut, FollowedEvent, LyapunovPlan, MarginsPlan, Orbit, Parameter, PlanError,
+    Control, Coordinate, CurvePlan, Cut, FollowedEvent, LyapunovPlan, MarginsPlan, Orbit, Parameter, PlanError,
     PlanResults, Quantity, Results, RunError, ScaledParameter, Scope, SectionPoints, SimulatePlan, Simulated,
     StartPlan, Stopped, Stretch, SystemPlan, Task,
 };
@@ -136,8 +136,8 @@ impl Dynamics for SystemPlan {
         })
     }
 
-    fn diagram_of(plan: &DiagramPlan, columns: &[Column]) -> Diagram {
-        diagram_of(plan, columns)
+    fn shown_point(show: &Show, numbers: &[f64]) -> Option<DiagramPoint> {
+        point(*show, numbers)
     }
 
     fn number(&self, name: &Parameter) -> Result<f64, PlanError> {

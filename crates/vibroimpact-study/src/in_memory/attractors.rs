@@ -24,7 +24,7 @@ pub(crate) fn attractors(
 ) -> Result<Census, RunError> {
     let task = BasinFill::scattered(system, (starts, seed), options, Some(TILE))?;
     let mut merged = Census::default();
-    for (_, tile) in tiles_of(task.grid(), control, |block, tick| task.compute(block, tick))? {
+    for (_, tile) in tiles_of(&task.over().grid, control, |block, tick| task.compute(block, tick))? {
         for found in tile.met.motions() {
             merged.add_found(found);
         }

@@ -23,7 +23,6 @@ pub(crate) fn basin(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>
 }
 
 fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: u32) -> Result<Basin, RunError> {
-    plan.check(system)?;
     let osc = &system.oscillator()?;
     if let Some(axis) = plan.axes.iter().find(|axis| !axis.vary.is_start()) {
         let (task, name) = ("basin of one system", axis.vary.name().into());
@@ -58,7 +57,7 @@ pub(crate) fn machine_basin(
 ) -> Result<Basin<Machine, String, String>, RunError> {
     axis::check_memory("starts", &plan.axes)?;
     let task = BasinFill::of_machine(problem, &BasinPlan { refine: None, ..plan.clone() }, None)?;
-    let whole = task.grid().whole();
+    let whole = task.over().grid.whole();
     let mut seen_events = vec![None; whole.points()];
     // a start that has a motion was settled before
     let unknown = Verdict::Undecided(Undecided { why: UndecidedCause::Budget, impacts: 0, spectrum: None });
@@ -86,14 +85,15 @@ fn all<B: Basins>(
 where
     Verdict<B::System>: StoredMotion,
 {
-    let parts =
-        tiles_of(task.grid(), control, |block, tick| task.compute(block, tick))?.into_iter().map(|(block, tile)| {
+    let parts = tiles_of(&task.over().grid, control, |block, tick| task.compute(block, tick))?.into_iter().map(
+        |(block, tile)| {
             note(&block, &tile);
             // without refinement every start is settled
             let number = |cell: &Cell<Option<u32>>| if let Cell::Computed(number) = cell { *number } else { None };
             Part { block, cells: tile.cells.iter().map(number).collect(), met: tile.met }
-        });
-    Ok(joined(&task.grid().whole(), parts, first))
+        },
+    );
+    Ok(joined(&task.over().grid.whole(), parts, first))
 }
 
 #[cfg(test)]

@@ -12,11 +12,11 @@ pub(crate) const DIAGRAM_TILE: u32 = 4;
 ///
 /// # Errors
 /// [`RunError`] for a value that gives no system, or when stopped.
-pub(crate) fn diagram<S: Swept>(
-    task: &SweepFill<S>,
+pub(crate) fn diagram<D: Swept>(
+    task: &SweepFill<D>,
     control: &Control<'_>,
-) -> Result<Diagram<S::Number, S::Show>, RunError> {
-    let (parts, plan) = (tiles_of(task.grid(), control, |block, tick| task.compute(block, tick))?, task.plan());
+) -> Result<Diagram<D::Name, D::Shown>, RunError> {
+    let (parts, plan) = (tiles_of(&task.over().grid, control, |block, tick| task.compute(block, tick))?, &task.plan);
     let mut steps = parts.into_iter().flat_map(|(_, steps)| steps).collect::<Result<Vec<_>, _>>()?;
     if let SweepDirection::Scatter { .. } = plan.direction {
         // a tile holds several starts at several values; sort by value, and at each value by start

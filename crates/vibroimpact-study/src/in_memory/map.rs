@@ -16,7 +16,6 @@ const TILE: [u32; 4] = [400, 20, 7, 4];
 /// # Errors
 /// [`RunError`] for an invalid plan, or when stopped.
 pub(crate) fn map(system: &SystemPlan, plan: &MapPlan, control: &Control<'_>) -> Result<RegionMap, RunError> {
-    plan.check(system)?;
     axis::check_memory("points", &plan.axes)?;
     // the starts of a tile share lanes; smaller tiles leave more lanes empty, and larger ones leave threads without work
     let tile = Some(TILE[plan.axes.len().min(TILE.len()) - 1]);
@@ -52,8 +51,8 @@ pub(crate) fn machine_points(
     control: &Control<'_>,
 ) -> Result<RegionMap<String, String>, RunError> {
     let task = MapFill::of_points(source, problem, plan, Some(tile(problem.0)))?;
-    let column = |along: Along| ListedColumn { vary: along.name, values: along.values };
-    let columns = task.coordinates().into_iter().map(column).collect();
+    let column = |along: &Along| ListedColumn { vary: along.name.clone(), values: along.values.clone() };
+    let columns = task.over().coordinates.iter().map(column).collect();
     Ok(RegionMap { axes: Vec::new(), columns, points: points(&task, control)?, fields: plan.fields.clone() })
 }
 
@@ -63,9 +62,9 @@ fn joined<V: Clone, F: Clone>(plan: &MapPlan<V, F>, points: Vec<Vec<Share>>) -> 
 
 /// The motions at all points; none at points whose numbers are not allowed.
 fn points<M: Mapped>(task: &MapFill<M>, control: &Control<'_>) -> Result<Vec<Vec<Share>>, RunError> {
-    let whole = task.grid().whole();
+    let whole = task.over().grid.whole();
     let mut points: Vec<Vec<Share>> = vec![Vec::new(); whole.points()];
-    for (block, tile) in tiles_of(task.grid(), control, |block, tick| task.compute(block, tick))? {
+    for (block, tile) in tiles_of(&task.over().grid, control, |block, tick| task.compute(block, tick))? {
         for (k, cell) in tile.into_iter().enumerate() {
             // without refinement every point is computed
             if let Cell::Computed(Ok(motions)) = cell {

@@ -5,6 +5,7 @@ mod section;
 
 use crate::axis::{self, Axis, Coordinate};
 use crate::machine::{MachineSource, StartAxis};
+use crate::name::renamed;
 use crate::{PlanError, StartPlan, SystemPlan, limits};
 pub(crate) use section::section;
 pub use section::{SectionClosing, SectionPoints};
@@ -46,14 +47,9 @@ impl<V> Default for LyapunovPlan<V> {
     }
 }
 
-impl<V> LyapunovPlan<V> {
-    /// The same with other names of what varies.
-    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<LyapunovPlan<W>, E> {
-        let Self { start, impacts, transient, points, .. } = self;
-        let axes = self.axes.iter().map(|axis| axis.named(name)).collect::<Result<_, E>>()?;
-        Ok(LyapunovPlan { axes, start: *start, impacts: *impacts, transient: *transient, points: *points })
-    }
+renamed!(LyapunovPlan: names, parts axes, others start impacts transient points);
 
+impl<V> LyapunovPlan<V> {
     /// The impacts of an oscillator to measure over, and those to pass before.
     #[must_use]
     pub fn lengths(&self) -> (u64, u64) {
@@ -134,7 +130,7 @@ impl LyapunovPlan<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Plan, SystemPlan, Task};
+    use crate::{Plan, SystemPlan, Task, Variable};
 
     const GOOD: LyapunovPlan = LyapunovPlan {
         axes: Vec::new(),
@@ -152,7 +148,7 @@ mod tests {
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
         assert!(serde_json::from_str::<Plan>(&text.replace("transient", "transeint")).is_err());
-        let short: LyapunovPlan = serde_json::from_str("{}").unwrap();
+        let short: LyapunovPlan<Variable> = serde_json::from_str("{}").unwrap();
         assert_eq!((short.lengths(), short.points), ((DEFAULT_IMPACTS, DEFAULT_TRANSIENT), None));
     }
 

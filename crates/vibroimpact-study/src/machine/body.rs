@@ -547,74 +547,68 @@ mod tests {
     use vibroimpact::motion::{EventKind, Motion};
     use vibroimpact::{Oscillator, Start};
 
-    const PLAIN: Body = Body {
-        mass_kg: Some(0.7),
-        damping_ns_per_m: Some(2.1),
-        stiffness_n_per_m: Some(900.0),
-        force_n: Some(3.0),
-        frequency_hz: Some(5.0),
-        gap_m: Some(0.004),
-        restitution: Some(0.7),
-        damping_ratio: None,
-        log_decrement: None,
-        omega_rad_per_s: None,
-        second_gap_m: None,
-        second_restitution: None,
-        base_displacement_m: None,
-        base_velocity_m_per_s: None,
-        base_acceleration_m_per_s2: None,
-        base_phase: 0.0,
-        stop_in_space: false,
-        stop_displacement_m: None,
-        stop_phase: 0.0,
-        unbalance_kg_m: None,
-        constant_force_n: None,
-        gravity_m_per_s2: None,
-    };
-    const TWO: Body = Body { second_gap_m: Some(0.006), second_restitution: Some(0.6), ..PLAIN };
-    const SHAKEN: Body = Body {
-        base_acceleration_m_per_s2: Some(1.5),
-        base_phase: 0.3,
-        stop_in_space: true,
-        unbalance_kg_m: Some(0.002),
-        constant_force_n: Some(0.5),
-        gravity_m_per_s2: Some(-0.3),
-        ..TWO
-    };
+    fn plain() -> Body {
+        Body {
+            mass_kg: Some(0.7),
+            damping_ns_per_m: Some(2.1),
+            stiffness_n_per_m: Some(900.0),
+            force_n: Some(3.0),
+            frequency_hz: Some(5.0),
+            gap_m: Some(0.004),
+            restitution: Some(0.7),
+            ..Body::default()
+        }
+    }
+
+    fn two() -> Body {
+        Body { second_gap_m: Some(0.006), second_restitution: Some(0.6), ..plain() }
+    }
+
+    fn shaken() -> Body {
+        Body {
+            base_acceleration_m_per_s2: Some(1.5),
+            base_phase: 0.3,
+            stop_in_space: true,
+            unbalance_kg_m: Some(0.002),
+            constant_force_n: Some(0.5),
+            gravity_m_per_s2: Some(-0.3),
+            ..two()
+        }
+    }
 
     /// A body with each number in each of its forms is read from its text as it was written.
     #[test]
     fn a_body_survives_its_text() {
-        let base = Body { base_acceleration_m_per_s2: Some(3.0), base_phase: 0.5, ..PLAIN };
+        let base = Body { base_acceleration_m_per_s2: Some(3.0), base_phase: 0.5, ..plain() };
         for body in [
-            PLAIN,
-            Body { damping_ns_per_m: None, log_decrement: Some(0.1), second_gap_m: Some(0.002), ..PLAIN },
-            Body { frequency_hz: None, omega_rad_per_s: Some(90.0), unbalance_kg_m: Some(1e-3), ..PLAIN },
+            plain(),
+            Body { damping_ns_per_m: None, log_decrement: Some(0.1), second_gap_m: Some(0.002), ..plain() },
+            Body { frequency_hz: None, omega_rad_per_s: Some(90.0), unbalance_kg_m: Some(1e-3), ..plain() },
             base,
             Body { stop_in_space: true, constant_force_n: Some(-2.0), gravity_m_per_s2: Some(-9.81), ..base },
-            Body { stop_displacement_m: Some(1e-4), stop_phase: 1.0, ..PLAIN },
+            Body { stop_displacement_m: Some(1e-4), stop_phase: 1.0, ..plain() },
         ] {
             let complete = body.complete().unwrap();
             let text = serde_json::to_string(&complete).unwrap();
             let read: Body = serde_json::from_str(&text).unwrap();
             assert_eq!((read, read.complete().unwrap()), (complete, complete), "{text}");
         }
-        let twice = Body { damping_ratio: Some(0.1), ..PLAIN }.complete().unwrap_err();
+        let twice = Body { damping_ratio: Some(0.1), ..plain() }.complete().unwrap_err();
         assert_eq!(twice, PlanError::TwoForms("damping_ns_per_m", "damping_ratio"));
-        let missing = Body { mass_kg: None, gap_m: None, ..PLAIN }.complete().unwrap_err();
+        let missing = Body { mass_kg: None, gap_m: None, ..plain() }.complete().unwrap_err();
         assert_eq!(missing, PlanError::Missing(vec!["mass_kg", "gap_m"]));
         assert_eq!(Body { stop_displacement_m: Some(1.0), ..base }.complete(), Err(PlanError::StopAndBase));
         // what has no effect is not stored
-        let idle = Body { gravity_m_per_s2: Some(0.0), base_displacement_m: Some(0.0), stop_in_space: true, ..PLAIN };
-        assert_eq!(idle.complete().unwrap(), PLAIN);
+        let idle = Body { gravity_m_per_s2: Some(0.0), base_displacement_m: Some(0.0), stop_in_space: true, ..plain() };
+        assert_eq!(idle.complete().unwrap(), plain());
     }
 
     /// Beside a stop that moves by itself a base may move, and a stop may leave its base: where the motion begins to vary, nothing
     /// jumps.
     #[test]
     fn a_motion_varies_beside_another() {
-        let on_base = Body { base_displacement_m: Some(0.003), base_phase: 0.4, ..PLAIN };
-        let alone = Body { stop_displacement_m: Some(3e-4), stop_phase: 0.7, ..PLAIN };
+        let on_base = Body { base_displacement_m: Some(0.003), base_phase: 0.4, ..plain() };
+        let alone = Body { stop_displacement_m: Some(3e-4), stop_phase: 0.7, ..plain() };
         for (body, number) in [(on_base, B::StopDisplacement), (alone, B::BaseDisplacement)] {
             let system = SystemPlan::of_body(&body).unwrap();
             let (parameter, from) = (Parameter::Body(number), number.get(&body).unwrap());
@@ -627,18 +621,18 @@ mod tests {
     #[test]
     fn each_number_is_set_and_read() {
         for number in B::ALL {
-            let changed = SHAKEN.with(Parameter::Body(number), 0.5).unwrap();
+            let changed = shaken().with(Parameter::Body(number), 0.5).unwrap();
             assert_eq!(number.get(&changed), Some(0.5), "{}", number.name());
             assert_eq!(B::from_name(number.name()), Some(number));
             let second = matches!(number, B::SecondGap | B::Gaps);
-            assert_eq!(PLAIN.with(Parameter::Body(number), 0.5).is_err(), second, "{}", number.name());
+            assert_eq!(plain().with(Parameter::Body(number), 0.5).is_err(), second, "{}", number.name());
         }
-        assert!(B::Gaps.get(&SHAKEN).is_none() && B::Restitutions.get(&SHAKEN).is_none());
+        assert!(B::Gaps.get(&shaken()).is_none() && B::Restitutions.get(&shaken()).is_none());
     }
 
     #[test]
     fn parameters_of_the_oscillator_are_set_and_read() {
-        let body = Body { constant_force_n: Some(0.5), ..TWO };
+        let body = Body { constant_force_n: Some(0.5), ..two() };
         for parameter in Parameter::ALL {
             let changed = body.with(parameter, 0.45).unwrap();
             assert!((changed.value(parameter).unwrap() - 0.45).abs() < 1e-15, "{}", parameter.name());
@@ -654,7 +648,7 @@ mod tests {
                 assert!(!moved || !expected.is_empty() && other.name().starts_with(expected), "{}", other.name());
             }
         }
-        assert_eq!(PLAIN.with(Parameter::SecondGap, 1.0), Err(SystemError::NoSecondStop("second_gap")));
+        assert_eq!(plain().with(Parameter::SecondGap, 1.0), Err(SystemError::NoSecondStop("second_gap")));
     }
 
     /// The powers with which the numbers of the oscillator change, by hand.
@@ -664,7 +658,7 @@ mod tests {
         let all = [P::Beta, P::Gap, P::Restitution, P::Damping, P::SecondGap, P::SecondRestitution];
         let numbers = |osc: &Oscillator| all.map(|parameter| parameter.get(osc).unwrap());
         let of = |body: &Body| numbers(&body.reduction().unwrap().oscillator);
-        let before = of(&TWO);
+        let before = of(&two());
         for (number, powers) in [
             (B::Mass, [0.5, 0.0, 0.0, -0.5, 0.0, 0.0]),
             (B::Stiffness, [-0.5, 1.0, 0.0, -0.5, 1.0, 0.0]),
@@ -672,9 +666,9 @@ mod tests {
             (B::Frequency, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
             (B::DampingCoefficient, [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]),
         ] {
-            let (value, name) = (number.get(&TWO).unwrap(), number.name());
-            let after = of(&TWO.with(Parameter::Body(number), 1.7 * value).unwrap());
-            let rates = TWO.line(Parameter::Body(number), None).unwrap().rates(value).unwrap();
+            let (value, name) = (number.get(&two()).unwrap(), number.name());
+            let after = of(&two().with(Parameter::Body(number), 1.7 * value).unwrap());
+            let rates = two().line(Parameter::Body(number), None).unwrap().rates(value).unwrap();
             for (k, parameter) in all.into_iter().enumerate() {
                 let expected = before[k] * 1.7_f64.powf(powers[k]);
                 assert!((after[k] - expected).abs() < 1e-14 * expected.abs(), "{name} {k}");
@@ -684,8 +678,8 @@ mod tests {
             }
         }
         // a force of an unbalance grows as the square of the frequency, that of a base with given acceleration does not
-        let unbalance = Body { force_n: Some(0.0), unbalance_kg_m: Some(0.002), ..PLAIN };
-        let on_base = Body { force_n: Some(0.0), base_acceleration_m_per_s2: Some(1.5), ..PLAIN };
+        let unbalance = Body { force_n: Some(0.0), unbalance_kg_m: Some(0.002), ..plain() };
+        let on_base = Body { force_n: Some(0.0), base_acceleration_m_per_s2: Some(1.5), ..plain() };
         for (body, power) in [(unbalance, -2.0), (on_base, 0.0)] {
             let gap = |body: &Body| body.reduction().unwrap().oscillator.gap();
             let faster = body.with(Parameter::Body(B::Frequency), 10.0).unwrap();
@@ -696,13 +690,13 @@ mod tests {
     #[test]
     fn a_line_and_a_plane_as_by_hand() {
         let (mass, force) = (Parameter::Body(B::Mass), Parameter::Body(B::Force));
-        let plane = PLAIN.plane((mass, force)).unwrap();
-        let osc = plane.set(&PLAIN.reduction().unwrap().oscillator, (1.1, 40.0)).unwrap();
+        let plane = plain().plane((mass, force)).unwrap();
+        let osc = plane.set(&plain().reduction().unwrap().oscillator, (1.1, 40.0)).unwrap();
         let near = |a: f64, b: f64| (a - b).abs() <= 1e-14 * b.abs();
         assert!(near(osc.beta(), TAU * 5.0 * (1.1_f64 / 900.0).sqrt()) && near(osc.gap(), 0.004 * 900.0 / 40.0));
         let frequency = Parameter::Body(B::Frequency);
-        let line = PLAIN.line(frequency, None).unwrap();
-        let there = PLAIN.with(frequency, 22.0).unwrap().reduction().unwrap().oscillator;
+        let line = plain().line(frequency, None).unwrap();
+        let there = plain().with(frequency, 22.0).unwrap().reduction().unwrap().oscillator;
         assert_eq!(line.set(&osc, 22.0), Ok(there));
     }
 
@@ -710,16 +704,16 @@ mod tests {
     fn decrement_and_ratio_are_the_same_damper() {
         let zeta = 0.02_f64;
         let decrement = TAU * zeta / (1.0 - zeta * zeta).sqrt();
-        let by_decrement = Body { damping_ns_per_m: None, log_decrement: Some(decrement), ..PLAIN };
+        let by_decrement = Body { damping_ns_per_m: None, log_decrement: Some(decrement), ..plain() };
         assert!((by_decrement.damping_ratio() - zeta).abs() < 1e-17);
-        let c = Body { damping_ns_per_m: None, damping_ratio: Some(zeta), ..PLAIN }.damping_coefficient();
+        let c = Body { damping_ns_per_m: None, damping_ratio: Some(zeta), ..plain() }.damping_coefficient();
         assert!((c - 2.0 * zeta * (0.7_f64 * 900.0).sqrt()).abs() < 1e-14);
     }
 
     /// The machine that a body spells is the oscillator of the body, to the rounding of its damper.
     #[test]
     fn a_body_is_a_machine_of_one_coordinate() {
-        for body in [PLAIN, TWO, SHAKEN, Body { damping_ns_per_m: None, damping_ratio: Some(0.02), ..SHAKEN }] {
+        for body in [plain(), two(), shaken(), Body { damping_ns_per_m: None, damping_ratio: Some(0.02), ..shaken() }] {
             let (of, own) = (Machine::new(body.parts()).unwrap().reduced().unwrap(), body.reduction().unwrap());
             assert!((of.oscillator.damping() - own.oscillator.damping()).abs() < 1e-16);
             assert_eq!(of.with_damping(own.oscillator.damping()), Ok(own));
@@ -729,15 +723,18 @@ mod tests {
     #[test]
     fn nonsense_is_named() {
         for (body, words) in [
-            (Body { force_n: Some(0.0), ..PLAIN }, "force F = 0 N"),
-            (Body { force_n: Some(0.0), gravity_m_per_s2: Some(1.0), ..PLAIN }, "sum of all excitations = 0 N"),
-            (Body { unbalance_kg_m: Some(-1.0), ..PLAIN }, "unbalance = -1 kg m"),
-            (Body { mass_kg: Some(0.0), ..PLAIN }, "mass m = 0 kg"),
-            (Body { stiffness_n_per_m: Some(-1.0), ..PLAIN }, "stiffness k = -1 N/m"),
-            (Body { frequency_hz: Some(f64::NAN), ..PLAIN }, "frequency omega = NaN"),
-            (Body { damping_ns_per_m: Some(-0.1), ..PLAIN }, "damping c = -0.1 N s/m"),
-            (Body { force_n: Some(1e-300), stiffness_n_per_m: Some(1e300), ..PLAIN }, "these quantities give F/k = 0"),
-            (Body { gap_m: Some(f64::INFINITY), ..PLAIN }, "gap delta = inf"),
+            (Body { force_n: Some(0.0), ..plain() }, "force F = 0 N"),
+            (Body { force_n: Some(0.0), gravity_m_per_s2: Some(1.0), ..plain() }, "sum of all excitations = 0 N"),
+            (Body { unbalance_kg_m: Some(-1.0), ..plain() }, "unbalance = -1 kg m"),
+            (Body { mass_kg: Some(0.0), ..plain() }, "mass m = 0 kg"),
+            (Body { stiffness_n_per_m: Some(-1.0), ..plain() }, "stiffness k = -1 N/m"),
+            (Body { frequency_hz: Some(f64::NAN), ..plain() }, "frequency omega = NaN"),
+            (Body { damping_ns_per_m: Some(-0.1), ..plain() }, "damping c = -0.1 N s/m"),
+            (
+                Body { force_n: Some(1e-300), stiffness_n_per_m: Some(1e300), ..plain() },
+                "these quantities give F/k = 0",
+            ),
+            (Body { gap_m: Some(f64::INFINITY), ..plain() }, "gap delta = inf"),
         ] {
             let message = SystemPlan::of_body(&body).unwrap_err().to_string();
             assert!(message.starts_with(words), "{message}");
@@ -748,7 +745,7 @@ mod tests {
     /// conversion and of the closed form. The times and speeds of the first impacts agree.
     #[test]
     fn the_same_impacts_as_the_physical_equations() {
-        let plain = Body { frequency_hz: None, omega_rad_per_s: Some(31.0), ..PLAIN };
+        let plain = Body { frequency_hz: None, omega_rad_per_s: Some(31.0), ..plain() };
         let idle = Body { force_n: Some(0.0), ..plain };
         let base = |displacement| Body { base_displacement_m: Some(displacement), ..idle };
         for (name, body) in [

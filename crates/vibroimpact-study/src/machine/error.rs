@@ -33,11 +33,8 @@ pub enum MachineProblem {
     #[error("{0}")]
     Text(String),
     /// A field that is needed.
-    #[error("{needed} is needed")]
-    Missing {
-        /// What is needed.
-        needed: &'static str,
-    },
+    #[error("{0} is needed")]
+    Missing(&'static str),
     /// Fields of which only one may be given.
     #[error("only one of {0} may be given")]
     Several(&'static str),
@@ -94,6 +91,11 @@ pub enum MachineProblem {
 impl MachineFileError {
     pub(super) fn new(path: impl Into<String>, problem: impl Into<MachineProblem>) -> Self {
         Self { path: path.into(), problem: problem.into() }
+    }
+
+    /// A number or another part that has no meaning.
+    pub(super) fn text(path: impl Into<String>, what: impl Into<String>) -> Self {
+        Self::new(path, MachineProblem::Text(what.into()))
     }
 }
 

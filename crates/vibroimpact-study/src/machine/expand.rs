@@ -71,9 +71,7 @@ fn direction(
         (Some(direction), None, None) => places.vector(&format!("{path}.direction"), direction),
         (None, Some(names), None) => places.between(&format!("{path}.between"), names),
         (None, None, Some(name)) => places.direction(&format!("{path}.at"), name),
-        (None, None, None) => {
-            Err(MachineFileError::new(path, MachineProblem::Missing { needed: "direction, between or at" }))
-        }
+        (None, None, None) => Err(MachineFileError::new(path, MachineProblem::Missing("direction, between or at"))),
         _ => Err(MachineFileError::new(path, MachineProblem::Several("direction, between and at"))),
     }
 }
@@ -108,9 +106,8 @@ fn expand_stop(text: &StopText, places: &Places<'_>) -> Result<Stop, MachineFile
             },
         },
         (None, None) => {
-            let problem =
-                MachineProblem::Missing { needed: "restitution of a rigid stop, or stiffness of a compliant one," };
-            return Err(MachineFileError::new(path, problem));
+            let needed = "restitution of a rigid stop, or stiffness of a compliant one,";
+            return Err(MachineFileError::new(path, MachineProblem::Missing(needed)));
         }
         (Some(_), Some(_)) => {
             return Err(MachineFileError::new(path, MachineProblem::Several("restitution and stiffness")));
@@ -126,8 +123,7 @@ fn expand_stop(text: &StopText, places: &Places<'_>) -> Result<Stop, MachineFile
     };
     let orders: Vec<u32> = text.motion.iter().map(|motion| motion.order.unwrap_or(1)).collect();
     if let Some(twice) = orders.iter().enumerate().find(|(k, order)| orders[..*k].contains(order)) {
-        let problem = MachineProblem::Text("the order is given twice".to_owned());
-        return Err(MachineFileError::new(format!("{path}.motion.{}", twice.1), problem));
+        return Err(MachineFileError::text(format!("{path}.motion.{}", twice.1), "the order is given twice"));
     }
     Ok(Stop {
         name: text.name.clone(),

@@ -30,6 +30,9 @@ pub(super) fn check_place(path: &str, name: &str) -> Result<(), MachineFileError
     check_name(path, name)
 }
 
+/// What is wrong in a number where a vector is needed.
+pub(super) const NUMBER_ALONE: &str = "a number alone is given, and a list or a table of names is needed";
+
 /// Directions by name.
 pub(super) struct Places<'a> {
     /// The parameters of the expressions.
@@ -110,10 +113,7 @@ impl Places<'_> {
                 }
                 Ok(sum)
             }
-            VectorText::One(_) => Err(MachineFileError::new(
-                path,
-                MachineProblem::Text("a number alone is given, and a list or a table of names is needed".to_owned()),
-            )),
+            VectorText::One(_) => Err(MachineFileError::text(path, NUMBER_ALONE)),
         }
     }
 
@@ -125,6 +125,12 @@ impl Places<'_> {
         let of = format!("the coordinates {}", self.coordinates.join(", "));
         Err(MachineFileError::new(path, MachineProblem::Size { given, wanted: self.n(), of }))
     }
+}
+
+/// Refuses a number that is negative or not finite, with what it is.
+pub(super) fn not_negative(path: impl Into<String>, what: &str, value: f64) -> Result<(), MachineFileError> {
+    let wrong = || MachineFileError::text(path, format!("{value} lies outside {what} >= 0"));
+    if value >= 0.0 && value.is_finite() { Ok(()) } else { Err(wrong()) }
 }
 
 /// Adds a multiple of a vector.

@@ -71,10 +71,7 @@ impl MachineSource {
                 return Err(MachineFileError::new("parameters", MachineProblem::ParameterName(name.clone())));
             }
             if !value.is_finite() {
-                return Err(MachineFileError::new(
-                    path,
-                    MachineProblem::Text(format!("{value} is not a finite number")),
-                ));
+                return Err(MachineFileError::text(path, format!("{value} is not a finite number")));
             }
         }
         let mut parts = expand(&self.machine, &self.parameters)?;
@@ -258,7 +255,7 @@ impl MachineSource {
             return error;
         }
         let problem = format!("no such number in this machine\nhint: there are {}", like.join(", "));
-        MachineFileError::new(error.path, MachineProblem::Text(problem))
+        MachineFileError::text(error.path, problem)
     }
 }
 

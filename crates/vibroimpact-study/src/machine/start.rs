@@ -3,6 +3,7 @@
 use super::error::{MachineFileError, MachineProblem};
 use super::named::Named;
 use super::number::NumberText;
+use super::places::NUMBER_ALONE;
 use super::shapes::VectorText;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -135,16 +136,13 @@ impl StartText {
         let value = |path: &str, number: &NumberText| {
             let value = number.value(parameters).map_err(|error| MachineFileError::new(path, error))?;
             let finite = value.is_finite().then_some(value);
-            finite.ok_or_else(|| wrong(path, format!("{value} is not a finite number")))
+            finite.ok_or_else(|| MachineFileError::text(path, format!("{value} is not a finite number")))
         };
         let vector = |path: &str, vector: Option<&VectorText>| {
             let mut values = vec![0.0; coordinates.len()];
             match vector {
                 None => {}
-                Some(VectorText::One(_)) => {
-                    let what = "a number alone is given, and a list or a table of names is needed";
-                    return Err(wrong(path, what.to_owned()));
-                }
+                Some(VectorText::One(_)) => return Err(MachineFileError::text(path, NUMBER_ALONE)),
                 Some(VectorText::List(list)) if list.len() != coordinates.len() => {
                     let given = format!("{} numbers", list.len());
                     let of = format!("the coordinates {}", coordinates.join(", "));
@@ -186,8 +184,4 @@ impl StartText {
             exact: self.exact.0.clone(),
         })
     }
-}
-
-fn wrong(path: &str, what: String) -> MachineFileError {
-    MachineFileError::new(path, MachineProblem::Text(what))
 }

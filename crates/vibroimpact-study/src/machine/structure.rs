@@ -3,7 +3,7 @@
 use super::error::{MachineFileError, MachineProblem};
 use super::named::Named;
 use super::number::NumberText;
-use super::places::{Places, check_name, check_place, name_of_mode};
+use super::places::{Places, check_name, check_place, name_of_mode, not_negative};
 use super::shapes::MatrixText;
 use super::text::{LinkText, ModeText, WrittenMachine};
 use core::f64::consts::TAU;
@@ -28,9 +28,8 @@ pub(super) fn places<'a>(text: &WrittenMachine, parameters: &'a Named<f64>) -> R
             return Err(MachineFileError::new("coordinates", problem));
         }
         None if own.is_empty() => {
-            let problem =
-                MachineProblem::Missing { needed: "a list of coordinates, a table of bodies or a list of modes" };
-            return Err(MachineFileError::new("coordinates", problem));
+            let needed = "a list of coordinates, a table of bodies or a list of modes";
+            return Err(MachineFileError::new("coordinates", MachineProblem::Missing(needed)));
         }
         None => own,
     };
@@ -101,7 +100,7 @@ pub(super) fn structure(text: &WrittenMachine, places: &Places<'_>) -> Result<Ma
         }
         Some(mass) => matrix("mass", mass, places)?,
         None if own => parts.mass,
-        None => return Err(MachineFileError::new("mass", MachineProblem::Missing { needed: "the mass matrix" })),
+        None => return Err(MachineFileError::new("mass", MachineProblem::Missing("the mass matrix"))),
     };
     if let Some(stiffness) = &text.stiffness {
         parts.stiffness = matrix("stiffness", stiffness, places)?;
@@ -126,9 +125,8 @@ pub(super) fn structure(text: &WrittenMachine, places: &Places<'_>) -> Result<Ma
         }
         places.check_size("modal_damping", ratios.len())?;
         let ratios = places.values("modal_damping", ratios)?;
-        if let Some(k) = ratios.iter().position(|ratio| !(*ratio >= 0.0 && ratio.is_finite())) {
-            let problem = MachineProblem::Text(format!("{} lies outside damping ratio >= 0", ratios[k]));
-            return Err(MachineFileError::new(format!("modal_damping.{}", k + 1), problem));
+        for (k, ratio) in ratios.iter().enumerate() {
+            not_negative(format!("modal_damping.{}", k + 1), "damping ratio", *ratio)?;
         }
         // without a positive definite mass matrix there are no modes, and the checks of the machine say so
         if let Some(damping) = modal_damping(&parts.mass, &parts.stiffness, &ratios) {
@@ -146,22 +144,14 @@ pub(super) fn structure(text: &WrittenMachine, places: &Places<'_>) -> Result<Ma
 }
 
 fn add_mode(parts: &mut MachineParts, k: usize, mode: &ModeText, places: &Places<'_>) -> Result<(), MachineFileError> {
-    let path = |field: &str| format!("mode.{}.{field}", k + 1);
-    let frequency =
-        frequency(&format!("mode.{}.", k + 1), mode.frequency.as_ref(), mode.frequency_hz.as_ref(), places)?
-            .ok_or_else(|| {
-                MachineFileError::new(
-                    format!("mode.{}", k + 1),
-                    MachineProblem::Missing { needed: "frequency or frequency_hz" },
-                )
-            })?;
+    let whole = format!("mode.{}", k + 1);
+    let path = |field: &str| format!("{whole}.{field}");
+    let frequency = frequency(&path(""), mode.frequency.as_ref(), mode.frequency_hz.as_ref(), places)?;
+    let needed = || MachineFileError::new(&whole, MachineProblem::Missing("frequency or frequency_hz"));
+    let frequency = frequency.ok_or_else(needed)?;
     let ratio = places.value_or(&path("damping_ratio"), mode.damping_ratio.as_ref(), 0.0)?;
-    for (field, value) in [("frequency", frequency), ("damping_ratio", ratio)] {
-        if !(value >= 0.0 && value.is_finite()) {
-            let problem = MachineProblem::Text(format!("{value} lies outside {field} >= 0"));
-            return Err(MachineFileError::new(path(field), problem));
-        }
-    }
+    not_negative(path("frequency"), "frequency", frequency)?;
+    not_negative(path("damping_ratio"), "damping_ratio", ratio)?;
     let mass = places.value_or(&path("modal_mass"), mode.modal_mass.as_ref(), 1.0)?;
     parts.mass[(k, k)] = mass;
     parts.damping[(k, k)] += 2.0 * ratio * frequency * mass;
@@ -211,22 +201,18 @@ fn links(text: &WrittenMachine, places: &Places<'_>) -> Result<Vec<Link>, Machin
         let name = name_of_link(link);
         let path = format!("link.{name}");
         if direction.iter().all(|value| *value == 0.0) {
-            let problem = MachineProblem::Text("the link joins nothing that moves".to_owned());
-            return Err(MachineFileError::new(format!("{path}.between"), problem));
+            return Err(MachineFileError::text(format!("{path}.between"), "the link joins nothing that moves"));
         }
         if seen.contains(&name) {
             return Err(MachineFileError::new(path, MachineProblem::Twice));
         }
         if link.stiffness.is_none() && link.damping.is_none() {
-            return Err(MachineFileError::new(path, MachineProblem::Missing { needed: "a stiffness or a damping" }));
+            return Err(MachineFileError::new(path, MachineProblem::Missing("a stiffness or a damping")));
         }
         let stiffness = places.value_or(&format!("{path}.stiffness"), link.stiffness.as_ref(), 0.0)?;
         let damping = places.value_or(&format!("{path}.damping"), link.damping.as_ref(), 0.0)?;
         for (field, value) in [("stiffness", stiffness), ("damping", damping)] {
-            if !(value >= 0.0 && value.is_finite()) {
-                let problem = MachineProblem::Text(format!("{value} lies outside {field} >= 0"));
-                return Err(MachineFileError::new(format!("{path}.{field}"), problem));
-            }
+            not_negative(format!("{path}.{field}"), field, value)?;
         }
         seen.push(name);
         all.push(Link { direction, stiffness, damping });

@@ -3,6 +3,7 @@
 use crate::axis::{self, Axis, Coordinate};
 use crate::limits::{MOST_STARTS, starts};
 use crate::machine::MachineSource;
+use crate::name::Renamed;
 use crate::quantity::{Quantity, check_fields};
 use crate::{Parameter, PlanError, Span, SystemPlan, limits};
 use serde::{Deserialize, Serialize};
@@ -51,7 +52,7 @@ const MOST_REFINE: u32 = 64;
 /// [`PlanError::OutOfRange`] for an invalid distance.
 pub(crate) fn check_refine(refine: Option<u32>) -> Result<(), PlanError> {
     let hint = ": the distance, in points, of the coarse grid to begin with";
-    refine.map_or(Ok(()), |given| limits::check("refine", given, 2..=MOST_REFINE)).map_err(|error| error.hinted(hint))
+    limits::given("refine", refine, 2..=MOST_REFINE).map_err(|error| error.hinted(hint))
 }
 
 /// Maximum number of impacts for which a start is followed.
@@ -62,7 +63,7 @@ const MOST_IMPACTS: u32 = 1_000_000;
 /// # Errors
 /// [`PlanError::OutOfRange`] for 0 or more than a million.
 pub(crate) fn check_impacts(impacts: Option<u32>) -> Result<(), PlanError> {
-    impacts.map_or(Ok(()), |given| limits::check("impacts", given, 1..=MOST_IMPACTS))
+    limits::given("impacts", impacts, 1..=MOST_IMPACTS)
 }
 
 /// The options with which each start is followed.
@@ -79,7 +80,7 @@ impl<V, Q> MapPlan<V, Q> {
         quantity: &impl Fn(&Q) -> Result<R, E>,
     ) -> Result<MapPlan<W, R>, E> {
         let Self { starts, seed, refine, impacts, .. } = self;
-        let axes = self.axes.iter().map(|axis| axis.named(name)).collect::<Result<_, E>>()?;
+        let axes = self.axes.named(name)?;
         let fields = self.fields.iter().map(quantity).collect::<Result<_, E>>()?;
         Ok(MapPlan { axes, starts: *starts, seed: *seed, refine: *refine, impacts: *impacts, fields })
     }

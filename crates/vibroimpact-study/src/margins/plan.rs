@@ -3,7 +3,7 @@
 use super::scope::{ScaledParameter, Scope};
 use crate::dynamics::{Dynamics, Setup};
 use crate::machine::MachineSource;
-use crate::name::Name;
+use crate::name::{Name, renamed};
 use crate::{BodyNumber, Parameter, PlanError, StartPlan, SystemPlan, limits};
 use serde::{Deserialize, Serialize};
 use vibroimpact::Label;
@@ -49,14 +49,9 @@ const fn within() -> f64 {
     DEFAULT_WITHIN
 }
 
-impl<V> MarginsPlan<V> {
-    /// The same with other names of the numbers that vary.
-    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<MarginsPlan<W>, E> {
-        let Self { start, within, lines, .. } = self;
-        let vary = self.vary.iter().map(|one| one.named(name)).collect::<Result<_, E>>()?;
-        Ok(MarginsPlan { start: *start, label: self.label.clone(), vary, within: *within, lines: *lines })
-    }
+renamed!(MarginsPlan: names, parts vary, others start label within lines);
 
+impl<V> MarginsPlan<V> {
     /// The number of lines to scattered points.
     #[must_use]
     pub fn lines(&self) -> u32 {

@@ -1,6 +1,6 @@
 //! The range of a parameter in which events are looked for, and its scale in the box.
 
-use crate::name::Name;
+use crate::name::{Name, Variable, renamed};
 use crate::{BodyNumber, Parameter, PlanError, SystemPlan};
 use core::fmt;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -28,12 +28,7 @@ struct ScaledText {
     scale: Option<f64>,
 }
 
-impl<V> ScaledParameter<V> {
-    /// The same with another name of the number.
-    pub(super) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<ScaledParameter<W>, E> {
-        Ok(ScaledParameter { parameter: name(&self.parameter)?, scale: self.scale })
-    }
-}
+renamed!(ScaledParameter: names parameter, parts, others scale);
 
 impl<V: Name> Serialize for ScaledParameter<V> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
@@ -73,7 +68,7 @@ impl<V: Name> JsonSchema for ScaledParameter<V> {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let (name, table) = (V::schema(), generator.subschema_for::<ScaledText>());
+        let (name, table) = (Variable::json_schema(generator), generator.subschema_for::<ScaledText>());
         schemars::json_schema!({ "anyOf": [name, table] })
     }
 }

@@ -2,6 +2,7 @@
 
 use super::listed::ListedColumn;
 use super::rule::{MOST_SOBOL, PointRule};
+use crate::name::renamed;
 use crate::{Coordinate, PlanError, limits};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -32,6 +33,9 @@ pub struct PointRange<V = Coordinate> {
     /// The other end.
     pub to: f64,
 }
+
+renamed!(DrawnPoints: names, parts over, others rule count seed);
+renamed!(PointRange: names vary, parts, others from to);
 
 /// Maximum number of points: the numbers of a permutation have 32 bits.
 const MOST: u64 = 1_000_000_000;

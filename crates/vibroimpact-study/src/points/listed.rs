@@ -1,5 +1,6 @@
 //! Points that are given one by one.
 
+use crate::name::renamed;
 use crate::{Coordinate, PlanError};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -13,6 +14,8 @@ pub struct ListedColumn<V = Coordinate> {
     /// Its value at each point.
     pub values: Vec<f64>,
 }
+
+renamed!(ListedColumn: names vary, parts, others values);
 
 /// Maximum number of points.
 const MOST: u64 = 1_000_000_000;

@@ -3,6 +3,7 @@
 use crate::axis::none_twice;
 use crate::machine::{MachineSource, StartAxis};
 use crate::map::check_impacts;
+use crate::name::renamed;
 use crate::quantity::check_fields;
 use crate::{PlanError, PointsPlan, limits};
 use schemars::JsonSchema;
@@ -25,13 +26,7 @@ pub struct ManyPlan<V = String> {
     pub fields: Vec<String>,
 }
 
-impl<V> ManyPlan<V> {
-    /// The same with other names of what varies.
-    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<ManyPlan<W>, E> {
-        let (points, fields) = (self.points.named(name)?, self.fields.clone());
-        Ok(ManyPlan { points, impacts: self.impacts, fields })
-    }
-}
+renamed!(ManyPlan: names, parts points, others impacts fields);
 
 /// Maximum number of points, whose motions are in memory.
 const MOST: u64 = 10_000_000;

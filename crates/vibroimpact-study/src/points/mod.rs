@@ -14,7 +14,7 @@ pub use many::ManyPlan;
 pub use rule::PointRule;
 
 use crate::axis::none_twice;
-use crate::name::{Name, Variable};
+use crate::name::{Name, Renamed, Variable};
 use crate::{Coordinate, Parameter, PlanError, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -42,17 +42,13 @@ impl PointsPlan<Variable> {
     }
 }
 
-impl<V> PointsPlan<V> {
-    /// The same with other names of what varies.
-    pub(crate) fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<PointsPlan<W>, E> {
-        let column = |of: &ListedColumn<V>| Ok(ListedColumn { vary: name(&of.vary)?, values: of.values.clone() });
-        let range = |of: &PointRange<V>| Ok(PointRange { vary: name(&of.vary)?, from: of.from, to: of.to });
+impl<V> Renamed<V> for PointsPlan<V> {
+    type With<W> = PointsPlan<W>;
+
+    fn named<W, E>(&self, name: &impl Fn(&V) -> Result<W, E>) -> Result<PointsPlan<W>, E> {
         Ok(match self {
-            Self::Listed(columns) => PointsPlan::Listed(columns.iter().map(column).collect::<Result<_, E>>()?),
-            Self::Drawn(DrawnPoints { rule, count, seed, over }) => {
-                let over = over.iter().map(range).collect::<Result<_, E>>()?;
-                PointsPlan::Drawn(DrawnPoints { rule: *rule, count: *count, seed: *seed, over })
-            }
+            Self::Listed(columns) => PointsPlan::Listed(columns.named(name)?),
+            Self::Drawn(drawn) => PointsPlan::Drawn(drawn.named(name)?),
         })
     }
 }
@@ -133,17 +129,8 @@ impl PointsPlan {
     #[must_use]
     pub fn start(&self, start: &StartPlan, k: usize) -> StartPlan {
         let mut there = *start;
-        match self {
-            Self::Listed(columns) => {
-                for column in columns {
-                    column.vary.place(&mut there, || column.values[k]);
-                }
-            }
-            Self::Drawn(drawn) => {
-                for (column, side) in drawn.over.iter().enumerate() {
-                    side.vary.place(&mut there, || drawn.at(column, k));
-                }
-            }
+        for (column, vary) in self.varied().enumerate() {
+            vary.place(&mut there, || self.at(column, k));
         }
         there
     }

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 pub struct ResponsePlan<V = Parameter, Q = Quantity> {
     /// The number that varies; its value in the system counts for nothing.
     #[serde(with = "crate::name")]
-    #[schemars(with = "Written<V>")]
+    #[schemars(with = "Written")]
     pub vary: V,
     /// Its values, in any order.
     pub over: Values,

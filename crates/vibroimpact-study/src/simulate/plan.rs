@@ -53,7 +53,7 @@ impl SimulatePlan {
     /// # Errors
     /// [`PlanError::OutOfRange`] for the first one outside its range.
     pub fn check(&self) -> Result<(), PlanError> {
-        self.impacts.map_or(Ok(()), |given| limits::check("impacts", given, 1..=10_000_000))?;
+        limits::given("impacts", self.impacts, 1..=10_000_000)?;
         for (name, given, most) in [("periods", self.periods, MOST_PERIODS), ("time", self.time, LONGEST)] {
             if let Some(given) = given.filter(|given| !(*given > 0.0 && *given <= most)) {
                 let range = format!("0 < {name} <= {most:e}");

@@ -9,8 +9,8 @@ pub(crate) use machine::MachineBasin;
 pub(crate) use oscillator::OscillatorBasin;
 
 use super::code;
-use super::cycles::{self, Numbered, Numbering};
-use super::fill::{self, Along, Fill};
+use super::cycles::{self, Numbered};
+use super::fill::{self, Fill, Over};
 use super::map::{computed, computed_column};
 use super::refine::{self, Cell};
 use super::stored_motion::StoredMotion;
@@ -43,9 +43,6 @@ pub(crate) trait Basins: Send + Sync {
 
     /// The distance of the points that are computed first; `None` for all points.
     fn refine(&self) -> Option<u32>;
-
-    /// The coordinate values of the axes.
-    fn coordinates(&self) -> Vec<Along>;
 
     /// The motions of starts of one system that are spread over the grid, which number the cycles.
     fn survey(&self, grid: &Grid) -> Census<Self::System>;
@@ -82,14 +79,16 @@ pub(crate) trait Basins: Send + Sync {
     /// The names of the stops of a machine.
     fn stops(&self) -> Vec<String>;
 
-    /// The numbers of the cycles.
-    fn numbered(numbering: Numbering<'_, Self::System>) -> Numbered<'_>;
+    /// A basin of one system, whose cycles are numbered.
+    fn numbered(of: &BasinFill<Self>) -> Numbered<'_>
+    where
+        Self: Sized;
 }
 
 /// A basin: the starts and their grid.
 pub(crate) struct BasinFill<B: Basins> {
     pub(crate) of: B,
-    grid: Grid,
+    over: Over,
     /// The cycles of one system with the same numbers in all tiles; computed when the first tile is stored.
     survey: OnceLock<Vec<Verdict<B::System>>>,
 }
@@ -117,13 +116,13 @@ impl<B: Basins> BasinFill<B>
 where
     Verdict<B::System>: StoredMotion,
 {
-    pub(crate) const fn new(of: B, grid: Grid) -> Self {
-        Self { of, grid, survey: OnceLock::new() }
+    pub(crate) const fn new(of: B, over: Over) -> Self {
+        Self { of, over, survey: OnceLock::new() }
     }
 
     /// The cycles of the survey, if the starts belong to one system. Every tile computes the same ones.
-    fn cycles(&self) -> Option<&[Verdict<B::System>]> {
-        let found = || cycles::survey(&self.of.survey(&self.grid));
+    pub(super) fn cycles(&self) -> Option<&[Verdict<B::System>]> {
+        let found = || cycles::survey(&self.of.survey(&self.over.grid));
         self.of.one_system().then(|| self.survey.get_or_init(found).as_slice())
     }
 
@@ -140,8 +139,14 @@ where
             return (B::codes(&tile.notes).into_iter().map(|code| (code, cycles::NONE)).collect(), unknown);
         };
         let leads =
-            |found: &CountedMotion<B::System>| (found.verdict.code(), cycles::number(known, &mut unknown, found));
+            |found: &CountedMotion<B::System>| (code(&found.verdict), cycles::number(known, &mut unknown, found));
         (tile.met.motions().iter().map(leads).collect(), unknown)
+    }
+
+    /// The cycles that only this tile has found, in the order of their preliminary numbers.
+    pub(super) fn unknown(&self, block: &Block) -> Census<B::System> {
+        let tile = self.compute(block, &|| false);
+        tile.map(|tile| self.leads(&tile).1).unwrap_or_default()
     }
 
     /// The motions of a tile; `None` if stopped.
@@ -166,7 +171,7 @@ where
         }
         // the verdict on a cycle that the survey has found is that of the survey, so that it is the same in all tiles
         let known = self.cycles().unwrap_or_default();
-        let stored = |found| known.iter().find(|known| cycles::same(*known, found)).unwrap_or(found);
+        let stored = |found| known.iter().find(|known| known.same_as(found, cycles::SAME)).unwrap_or(found);
         columns.extend(self.of.columns(block, tile, &stored));
         if self.of.refine().is_some() {
             columns.push(computed_column(&tile.cells));
@@ -183,12 +188,8 @@ where
         fill::with_refinement(self.of.refine(), B::ABREAST)
     }
 
-    fn grid(&self) -> &Grid {
-        &self.grid
-    }
-
-    fn coordinates(&self) -> Vec<Along> {
-        self.of.coordinates()
+    fn over(&self) -> &Over {
+        &self.over
     }
 
     fn fields(&self) -> Vec<Field> {
@@ -213,11 +214,6 @@ where
     }
 
     fn numbered(&self) -> Option<Numbered<'_>> {
-        let unknown = |block: &Block| {
-            let tile = self.compute(block, &|| false);
-            tile.map(|tile| self.leads(&tile).1).unwrap_or_default()
-        };
-        let (known, stops) = (self.cycles()?, self.of.stops());
-        Some(B::numbered(Numbering { field: 1, known, stops, unknown: Box::new(unknown) }))
+        self.of.one_system().then(|| B::numbered(self))
     }
 }

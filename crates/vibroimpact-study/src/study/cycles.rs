@@ -5,14 +5,13 @@
 //! number below [`NONE`]. When all tiles are complete, these few cycles are computed again and numbered in the order of
 //! the tiles.
 
+use super::basin::{BasinFill, Basins, MachineBasin, OscillatorBasin};
 use super::stored_motion::{StoredCycle, StoredMotion};
 use super::tables::{Cells, StudyTable, Tiles};
 use crate::Unit;
 use crate::field::{Column, Field};
-use crate::grid::{Block, Grid};
+use crate::grid::Grid;
 use std::collections::BTreeMap;
-use vibroimpact::Oscillator;
-use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{Census, CountedMotion, System, Verdict};
 
 /// Number of a motion that has none.
@@ -43,7 +42,7 @@ where
         return NONE;
     }
     let whole = |n: usize| i32::try_from(n).unwrap_or(i32::MAX / 2);
-    match known.iter().position(|other| same(other, &found.verdict)) {
+    match known.iter().position(|other| other.same_as(&found.verdict, SAME)) {
         Some(k) => whole(k),
         None => UNKNOWN - whole(unknown.add_found(found)),
     }
@@ -55,15 +54,7 @@ const fn preliminary(n: i32) -> bool {
 }
 
 /// Two cycles closer than this are the same one, as in a census.
-const SAME: f64 = 1e-6;
-
-/// Whether two verdicts are the same cycle.
-pub(super) fn same<S: System>(a: &Verdict<S>, b: &Verdict<S>) -> bool
-where
-    Verdict<S>: StoredMotion,
-{
-    a.is_numbered() && a.same_as(b, SAME)
-}
+pub(super) const SAME: f64 = 1e-6;
 
 /// The cycles found by a survey.
 pub(super) fn survey<S: System>(found: &Census<S>) -> Vec<Verdict<S>>
@@ -73,48 +64,37 @@ where
     found.motions().iter().filter(|found| found.verdict.is_numbered()).map(|found| found.verdict.clone()).collect()
 }
 
-/// The numbers of the cycles of an oscillator, or of a machine.
+/// A basin of one oscillator or of one machine, whose cycles are numbered.
 pub(crate) enum Numbered<'a> {
-    Oscillator(Numbering<'a, Oscillator>),
-    Machine(Numbering<'a, Machine>),
+    Oscillator(&'a BasinFill<OscillatorBasin>),
+    Machine(&'a BasinFill<MachineBasin>),
 }
 
 impl Numbered<'_> {
     pub(super) fn conclude<T: Tiles>(&self, grid: &Grid, tiles: &mut T) -> Result<Vec<StudyTable>, T::Error> {
         match self {
-            Self::Oscillator(numbering) => numbering.conclude(grid, tiles),
-            Self::Machine(numbering) => numbering.conclude(grid, tiles),
+            Self::Oscillator(of) => of.conclude(grid, tiles),
+            Self::Machine(of) => of.conclude(grid, tiles),
         }
     }
 }
 
-/// What is found of a tile.
-type OfTile<'a, S> = Box<dyn Fn(&Block) -> Census<S> + 'a>;
+/// The number of the field that contains the numbers.
+const FIELD: usize = 1;
 
-/// The data needed to number the cycles that the survey has not found.
-pub(crate) struct Numbering<'a, S: System> {
-    /// Index of the field that contains the numbers.
-    pub(super) field: usize,
-    /// The cycles of the survey.
-    pub(super) known: &'a [Verdict<S>],
-    /// The names of the stops of a machine.
-    pub(super) stops: Vec<String>,
-    /// The cycles that only the given tile has found, in the order of their preliminary numbers.
-    pub(super) unknown: OfTile<'a, S>,
-}
-
-impl<S: System> Numbering<'_, S>
+impl<B: Basins> BasinFill<B>
 where
-    Verdict<S>: StoredMotion,
+    Verdict<B::System>: StoredMotion,
 {
     fn conclude<T: Tiles>(&self, grid: &Grid, tiles: &mut T) -> Result<Vec<StudyTable>, T::Error> {
-        let mut cycles: Vec<Verdict<S>> = self.known.to_vec();
+        let known = self.cycles().unwrap_or_default();
+        let mut cycles = known.to_vec();
         let mut counts: BTreeMap<i32, u64> = BTreeMap::new();
         let mut add = |own: &[(i32, u64)]| own.iter().for_each(|(n, count)| *counts.entry(*n).or_default() += count);
         // the tiles with cycles that the survey has not found
         let mut further: BTreeMap<u64, Vec<(i32, u64)>> = BTreeMap::new();
-        let surveyed = |n: i32| !preliminary(n) && usize::try_from(n).map_or(true, |n| n < self.known.len());
-        tiles.counts(grid.tiles(), self.field, &mut |k, own| {
+        let surveyed = |n: i32| !preliminary(n) && usize::try_from(n).map_or(true, |n| n < known.len());
+        tiles.counts(grid.tiles(), FIELD, &mut |k, own| {
             if own.iter().all(|(n, _)| surveyed(*n)) {
                 add(own);
             } else {
@@ -128,7 +108,7 @@ where
             let first = own.iter().any(|(n, _)| usize::try_from(*n).is_ok_and(|n| n >= cycles.len()));
             let mut renumbered = Vec::new();
             if renumbers || first {
-                for found in (self.unknown)(&grid.tile(k)).motions() {
+                for found in self.unknown(&grid.tile(k)).motions() {
                     let same = cycles.iter().position(|other| other.same_as(&found.verdict, SAME));
                     renumbered.push(same.unwrap_or_else(|| {
                         cycles.push(found.verdict.clone());
@@ -140,19 +120,19 @@ where
                 add(&own);
                 continue;
             }
-            let mut numbers = tiles.read(k, self.field)?.whole().to_vec();
+            let mut numbers = tiles.read(k, FIELD)?.whole().to_vec();
             for n in numbers.iter_mut().filter(|n| preliminary(**n)) {
                 let place = usize::try_from(UNKNOWN - *n).unwrap_or(usize::MAX);
                 *n = renumbered.get(place).and_then(|n| i32::try_from(*n).ok()).unwrap_or(NONE);
             }
             let column = Column::I32(numbers);
-            tiles.write(k, self.field, &column)?;
+            tiles.write(k, FIELD, &column)?;
             add(&column.counts());
         }
         let count = |n: i32| counts.get(&n).copied().unwrap_or(0);
         let starts: Vec<u64> = (0..cycles.len()).map(|n| i32::try_from(n).map_or(0, count)).collect();
         let cycles: Vec<StoredCycle> = cycles.iter().filter_map(StoredMotion::stored_cycle).collect();
-        Ok(tables(&cycles, (&self.stops, &starts), (grid.points() - count(BEYOND), Verdict::<S>::UNITS)))
+        Ok(tables(&cycles, (&self.of.stops(), &starts), (grid.points() - count(BEYOND), Verdict::<B::System>::UNITS)))
     }
 }
 

@@ -3,7 +3,8 @@
 use super::cycles;
 use crate::axis::Described;
 use crate::grid::{Dimension, Index};
-use crate::{Axis, Block, Column, Extra, Field, Grid, Unit};
+use crate::points::DIMENSION;
+use crate::{Axis, Block, Column, Extra, Field, Grid, PointsPlan, Unit};
 use std::borrow::Cow;
 
 /// The coordinate values along a dimension of the grid.
@@ -21,13 +22,34 @@ pub struct Along {
     pub unit: Unit,
 }
 
+/// A grid, and the coordinate values of the dimensions that have any.
+pub(crate) struct Over {
+    pub(crate) grid: Grid,
+    pub(crate) coordinates: Vec<Along>,
+}
+
+impl Over {
+    /// The grid over some axes; the first axis varies fastest. Tiles have the side `asked`, or by default sides from the least to the
+    /// most: where points of a machine take a hundred times as long, they are as small as one point where an axis is short.
+    pub(super) fn axes<V: Described>(axes: &[Axis<V>], asked: Option<u32>, sides: (usize, usize)) -> Self {
+        let dimension = |axis: &Axis<V>| dimension(axis.vary.text(), axis.over.count(), asked, sides);
+        let along = |axis: &Axis<V>| Along::new(&axis.vary, axis.over.all(), axis.vary.text());
+        Self {
+            grid: Grid { dimensions: axes.iter().rev().map(dimension).collect() },
+            coordinates: axes.iter().rev().map(along).collect(),
+        }
+    }
+
+    /// The same with tiles of this side; on short axes the default is smaller, but at least a quarter of it.
+    pub(super) fn usual<V: Described>(axes: &[Axis<V>], asked: Option<u32>, side: usize) -> Self {
+        Self::axes(axes, asked, (side.div_ceil(4), side))
+    }
+}
+
 /// A task over a grid: how a tile is computed and stored.
 pub(crate) trait Fill: Send + Sync {
-    /// The grid with its usual tiles.
-    fn grid(&self) -> &Grid;
-
-    /// The coordinate values of the dimensions that have any.
-    fn coordinates(&self) -> Vec<Along>;
+    /// The grid with its usual tiles, and its coordinates.
+    fn over(&self) -> &Over;
 
     /// The fields (arrays) of the task.
     fn fields(&self) -> Vec<Field>;
@@ -95,19 +117,6 @@ pub(super) const fn with_refinement(refine: Option<u32>, points: u64) -> u64 {
 /// interrupted.
 const FEWEST: usize = 16;
 
-/// The grid over some axes; the first axis varies fastest. Tiles have the side `asked`, or by default `side`. On short
-/// axes the default is smaller, but at least a quarter of `side`.
-pub(super) fn grid_of(axes: &[Axis], asked: Option<u32>, side: usize) -> Grid {
-    grid_between(axes, asked, (side.div_ceil(4), side))
-}
-
-/// The same, by default with tiles of sides from the least to the most. Where points of a machine take a hundred times as long,
-/// tiles are as small as one point where an axis is short.
-pub(super) fn grid_between<V: Described>(axes: &[Axis<V>], asked: Option<u32>, sides: (usize, usize)) -> Grid {
-    let dimension = |axis: &Axis<V>| dimension(axis.vary.text(), axis.over.count(), asked, sides);
-    Grid { dimensions: axes.iter().rev().map(dimension).collect() }
-}
-
 /// A dimension with tiles of the length `asked`, or by default of a length from `least` to `most`, the largest that gives
 /// enough tiles.
 pub(super) fn dimension(name: &str, count: usize, asked: Option<u32>, (least, most): (usize, usize)) -> Dimension {
@@ -116,9 +125,14 @@ pub(super) fn dimension(name: &str, count: usize, asked: Option<u32>, (least, mo
     Dimension { name: name.to_owned(), count, tile }
 }
 
-/// The coordinate values of the axes.
-pub(super) fn along<V: Described>(axes: &[Axis<V>]) -> Vec<Along> {
-    axes.iter().rev().map(|axis| Along::new(&axis.vary, axis.over.all(), axis.vary.text())).collect()
+/// The values of what varies at points, which are several coordinates of one dimension.
+pub(super) fn along_points<V: Described>(points: &PointsPlan<V>) -> impl Iterator<Item = Along>
+where
+    Cow<'static, str>: From<V>,
+{
+    let count = usize::try_from(points.count()).unwrap_or(usize::MAX);
+    let values = move |column| (0..count).map(|k| points.at(column, k)).collect();
+    points.varied().enumerate().map(move |(column, vary)| Along::new(&vary, values(column), DIMENSION))
 }
 
 impl Along {

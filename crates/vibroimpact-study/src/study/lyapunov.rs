@@ -1,10 +1,10 @@
 //! The tiles of a study of Lyapunov exponents: at each point all exponents and where they come from.
 
-use super::fill::{Along, Fill, along, grid_of, on_axis};
+use super::fill::{Fill, Over, on_axis};
 use super::map::side;
 use crate::axis;
 use crate::field::{Column, Extra, Field, NumberType};
-use crate::{Block, Grid, LyapunovPlan, SystemPlan, Unit};
+use crate::{Block, LyapunovPlan, SystemPlan, Unit};
 use vibroimpact::chaos::{Grounds, Measured, exponents};
 
 /// Default number of points of a tile along each of two axes; a tile takes some seconds.
@@ -17,8 +17,6 @@ pub(super) trait Spectra: Send + Sync {
     /// The code of a point at which there is no such system or start.
     const REFUSED: i8;
 
-    /// The coordinate values of the axes.
-    fn coordinates(&self) -> Vec<Along>;
     /// The number of exponents at each point.
     fn directions(&self) -> usize;
     /// The names and descriptions of the further numbers of a [`Spectrum`].
@@ -30,6 +28,7 @@ pub(super) trait Spectra: Send + Sync {
 }
 
 /// What is measured at a point.
+#[derive(Default)]
 pub(super) struct Spectrum {
     /// Per unit time, the largest first.
     pub(super) exponents: Vec<Measured>,
@@ -40,14 +39,8 @@ pub(super) struct Spectrum {
 }
 
 pub(super) struct LyapunovFill<S> {
-    of: S,
-    grid: Grid,
-}
-
-impl<S> LyapunovFill<S> {
-    pub(super) fn over(of: S, grid: Grid) -> Self {
-        Self { of, grid }
-    }
+    pub(super) of: S,
+    pub(super) over: Over,
 }
 
 /// Oscillators and their starts over axes.
@@ -58,8 +51,8 @@ pub(super) struct Oscillators {
 
 impl LyapunovFill<Oscillators> {
     pub(super) fn new(system: &SystemPlan, plan: &LyapunovPlan, tile: Option<u32>) -> Self {
-        let grid = grid_of(&plan.axes, tile, side(TILE, plan.axes.len()));
-        Self::over(Oscillators { system: *system, plan: plan.clone() }, grid)
+        let over = Over::usual(&plan.axes, tile, side(TILE, plan.axes.len()));
+        Self { of: Oscillators { system: *system, plan: plan.clone() }, over }
     }
 }
 
@@ -88,10 +81,6 @@ const fn grounds(of: &Grounds) -> i8 {
 impl Spectra for Oscillators {
     const RATE: Unit = Unit::RATE;
     const REFUSED: i8 = 0;
-
-    fn coordinates(&self) -> Vec<Along> {
-        along(&self.plan.axes)
-    }
 
     fn directions(&self) -> usize {
         2
@@ -125,12 +114,8 @@ impl Spectra for Oscillators {
 }
 
 impl<S: Spectra> Fill for LyapunovFill<S> {
-    fn grid(&self) -> &Grid {
-        &self.grid
-    }
-
-    fn coordinates(&self) -> Vec<Along> {
-        self.of.coordinates()
+    fn over(&self) -> &Over {
+        &self.over
     }
 
     fn fields(&self) -> Vec<Field> {
@@ -148,25 +133,23 @@ impl<S: Spectra> Fill for LyapunovFill<S> {
     }
 
     fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
-        let (points, directions) = (block.points(), self.of.directions());
-        let mut exponents = [(); 2].map(|()| vec![f64::NAN; directions * points]);
-        let mut further = vec![vec![f64::NAN; points]; self.of.further().len()];
-        let mut why = vec![S::REFUSED; points];
-        for (k, why) in why.iter_mut().enumerate() {
+        let mut columns: Vec<Column> = self.fields().iter().map(|field| field.empty(block.points())).collect();
+        for k in 0..block.points() {
             // the corners are valid; a point between them that is not has no result
-            if let Some(found) = self.of.at(&block.index(k)) {
-                for (i, Measured { value, error }) in found.exponents.into_iter().take(directions).enumerate() {
-                    exponents[0][directions * k + i] = value;
-                    exponents[1][directions * k + i] = error;
-                }
-                further.iter_mut().zip(found.further).for_each(|(column, value)| column[k] = value);
-                *why = found.grounds;
+            let found = self.of.at(&block.index(k));
+            let grounds = found.as_ref().map_or(S::REFUSED, |found| found.grounds);
+            let Spectrum { exponents, further, .. } = found.unwrap_or_default();
+            let places = (self.of.directions() * k..).take(self.of.directions());
+            for (place, Measured { value, error }) in places.zip(exponents) {
+                columns[0].set(place, value);
+                columns[1].set(place, error);
             }
+            let further = further.into_iter().chain([f64::from(grounds)]);
+            columns.iter_mut().rev().zip(further.rev()).for_each(|(column, value)| column.set(k, value));
             if tick() {
                 return None;
             }
         }
-        let real = exponents.into_iter().chain(further).map(Column::F64);
-        Some(real.chain([Column::I8(why)]).collect())
+        Some(columns)
     }
 }

@@ -1,6 +1,6 @@
 //! What the tiles of a study of Lyapunov exponents of a machine hold: all exponents at each point.
 
-use super::fill::{Along, along, grid_between, on_axis};
+use super::fill::{Over, on_axis};
 use super::lyapunov::{LyapunovFill, Spectra, Spectrum, TILE};
 use super::map::side;
 use crate::machine::{MachineSource, StartAxis};
@@ -25,10 +25,10 @@ impl LyapunovFill<Machines> {
         tile: Option<u32>,
     ) -> Result<Self, PlanError> {
         let machine = source.machine()?;
-        let grid = grid_between(&plan.axes, tile, (1, side(TILE, plan.axes.len())));
+        let over = Over::axes(&plan.axes, tile, (1, side(TILE, plan.axes.len())));
         let places = plan.axes.iter().map(|axis| StartAxis::found(&machine, &axis.vary)).collect::<Result<_, _>>()?;
         let of = Machines { source: source.clone(), plan: plan.clone(), places, directions: 2 * machine.n() };
-        Ok(Self::over(of, grid))
+        Ok(Self { of, over })
     }
 }
 
@@ -56,10 +56,6 @@ const GROUNDS: [(i32, &str); 5] =
 impl Spectra for Machines {
     const RATE: Unit = Unit::CONSISTENT;
     const REFUSED: i8 = 3;
-
-    fn coordinates(&self) -> Vec<Along> {
-        along(&self.plan.axes)
-    }
 
     fn directions(&self) -> usize {
         self.directions

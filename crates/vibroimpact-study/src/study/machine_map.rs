@@ -1,7 +1,7 @@
 //! The tiles of a map of a machine: the motions at each point of a grid over numbers of the machine.
 
 use super::code::code;
-use super::fill::{Along, along, grid_between, machine_fields, on_axis};
+use super::fill::{Over, machine_fields, on_axis};
 use super::map::{MapFill, Mapped, Motions, side};
 use super::stored_motion::StoredMotion;
 use crate::field::{Extra, Field};
@@ -36,10 +36,10 @@ impl MapFill<MachinesOver> {
         let machine = source.machine().ok();
         let reduced = machine.as_ref().is_some_and(|machine| machine.reduced().is_some());
         let (least, most) = if reduced { WIDE_TILE } else { TILE };
-        let grid = grid_between(&plan.axes, tile, (least, side(most, plan.axes.len())));
+        let over = Over::axes(&plan.axes, tile, (least, side(most, plan.axes.len())));
         let stops = machine.map_or(0, |machine| machine.stops().len());
         let mapped = MachinesOver { source: source.clone(), plan: plan.clone(), options: options(plan.impacts), stops };
-        Self::of(mapped, grid, plan.starts, plan.refine)
+        Self::of(mapped, over, plan.starts, plan.refine)
     }
 }
 
@@ -79,10 +79,6 @@ impl Share {
 
 impl Mapped for MachinesOver {
     const VELOCITY: Unit = Unit::CONSISTENT;
-
-    fn coordinates(&self) -> Vec<Along> {
-        along(&self.plan.axes)
-    }
 
     fn motions(&self, points: &[Index], tick: &dyn Fn() -> bool) -> Option<Vec<Motions>> {
         let mut problems = Vec::new();

@@ -1,6 +1,6 @@
 //! The tiles of points of a machine: the motion at each point of its numbers and of its start.
 
-use super::fill::{Along, dimension, machine_fields};
+use super::fill::{Over, along_points, dimension, machine_fields};
 use super::map::{MapFill, Mapped, Motions};
 use crate::field::{Extra, Field};
 use crate::grid::{Grid, Index};
@@ -41,11 +41,10 @@ impl MapFill<MachineAt> {
         let sizes = if machine.reduced().is_some() { WIDE_TILE } else { TILE };
         let count = usize::try_from(plan.points.count()).unwrap_or(usize::MAX);
         let grid = Grid { dimensions: vec![dimension(DIMENSION, count, tile, sizes)] };
-        let mut start = start.clone();
-        start.q.resize(machine.n(), 0.0);
-        start.qdot.resize(machine.n(), 0.0);
-        let (source, machine, options) = (source.clone(), machine.clone(), options(plan.impacts));
-        Ok(Self::of(MachineAt { source, machine, start, plan: plan.clone(), places, options }, grid, 1, None))
+        let over = Over { grid, coordinates: along_points(&plan.points).collect() };
+        let (source, machine, start) = (source.clone(), machine.clone(), start.clone());
+        let (plan, options) = (plan.clone(), options(plan.impacts));
+        Ok(Self::of(MachineAt { source, machine, start, plan, places, options }, over, 1, None))
     }
 }
 
@@ -70,15 +69,6 @@ impl MachineAt {
 impl Mapped for MachineAt {
     const VELOCITY: Unit = Unit::CONSISTENT;
     const SEVERAL: bool = false;
-
-    fn coordinates(&self) -> Vec<Along> {
-        let points = &self.plan.points;
-        let count = usize::try_from(points.count()).unwrap_or(usize::MAX);
-        let column = |(column, name): (usize, String)| {
-            Along::new(&name, (0..count).map(|k| points.at(column, k)).collect(), DIMENSION)
-        };
-        points.varied().enumerate().map(column).collect()
-    }
 
     /// Points of the same machine after each other are settled together.
     fn motions(&self, points: &[Index], tick: &dyn Fn() -> bool) -> Option<Vec<Motions>> {

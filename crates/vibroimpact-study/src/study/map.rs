@@ -2,14 +2,14 @@
 //! (`machine_map.rs`).
 
 use super::code;
-use super::fill::{self, Along, Fill, along, grid_of, on_axis};
+use super::fill::{self, Fill, Over, on_axis};
 use super::refine::{self, Cell};
 use super::remarks;
 use crate::field::{Column, Extra, Field, NumberType};
 use crate::grid::Index;
 use crate::map::motions;
 use crate::quantity;
-use crate::{Block, Grid, MapPlan, PlanError, Share, SystemPlan, Unit};
+use crate::{Block, MapPlan, PlanError, Share, SystemPlan, Unit};
 use vibroimpact::Oscillator;
 use vibroimpact::verdict::SettleOptions;
 
@@ -24,9 +24,6 @@ pub(crate) trait Mapped: Send + Sync + Sized {
     const VELOCITY: Unit;
     /// Whether several starts at a point lead to motions, each with its share.
     const SEVERAL: bool = true;
-
-    /// The coordinate values of the axes.
-    fn coordinates(&self) -> Vec<Along>;
 
     /// The motions at points of the grid, the most frequent first, or the error if a point is no valid system. `tick` is
     /// called for each point; if it returns true, the computation stops with `None`.
@@ -44,7 +41,7 @@ pub(crate) trait Mapped: Send + Sync + Sized {
 /// The motions at each point of a grid.
 pub(crate) struct MapFill<M> {
     mapped: M,
-    grid: Grid,
+    over: Over,
     kept: usize,
     refine: Option<u32>,
 }
@@ -77,10 +74,6 @@ impl OscillatorMap {
 impl Mapped for OscillatorMap {
     const VELOCITY: Unit = Unit::VELOCITY;
 
-    fn coordinates(&self) -> Vec<Along> {
-        along(&self.plan.axes)
-    }
-
     fn motions(&self, points: &[Index], tick: &dyn Fn() -> bool) -> Option<Vec<Motions>> {
         let mut systems = Vec::new();
         let mut numbers = Vec::new();
@@ -106,17 +99,17 @@ impl Mapped for OscillatorMap {
 
 impl MapFill<OscillatorMap> {
     pub(crate) fn new(system: &SystemPlan, plan: &MapPlan, tile: Option<u32>) -> Self {
-        let grid = grid_of(&plan.axes, tile, side(TILE, plan.axes.len()));
+        let over = Over::usual(&plan.axes, tile, side(TILE, plan.axes.len()));
         let mapped = OscillatorMap { system: *system, plan: plan.clone(), options: plan.options() };
-        Self::of(mapped, grid, plan.starts, plan.refine)
+        Self::of(mapped, over, plan.starts, plan.refine)
     }
 }
 
 impl<M: Mapped> MapFill<M> {
     /// The map over a grid, with so many starts at each point.
-    pub(super) fn of(mapped: M, grid: Grid, starts: u64, refine: Option<u32>) -> Self {
+    pub(super) fn of(mapped: M, over: Over, starts: u64, refine: Option<u32>) -> Self {
         let kept = usize::try_from(starts).unwrap_or(MOST_MOTIONS).min(MOST_MOTIONS);
-        Self { mapped, grid, kept, refine }
+        Self { mapped, over, kept, refine }
     }
 
     /// The motions at the points of a tile; `None` if stopped.
@@ -193,12 +186,8 @@ impl<M: Mapped> Fill for MapFill<M> {
         fill::with_refinement(self.refine, 1)
     }
 
-    fn grid(&self) -> &Grid {
-        &self.grid
-    }
-
-    fn coordinates(&self) -> Vec<Along> {
-        self.mapped.coordinates()
+    fn over(&self) -> &Over {
+        &self.over
     }
 
     fn fields(&self) -> Vec<Field> {

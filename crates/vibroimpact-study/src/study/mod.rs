@@ -7,10 +7,8 @@ mod arrays;
 mod basin;
 mod code;
 mod cycles;
-mod diagram;
 mod fill;
 mod lyapunov;
-mod machine_diagram;
 mod machine_lyapunov;
 mod machine_map;
 mod machine_points;
@@ -30,10 +28,8 @@ mod tests;
 pub use arrays::StudyArrays;
 pub(crate) use basin::{BasinFill, BasinTile, Basins, MachineBasin};
 pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, REFUSED, STUCK, UNDECIDED, code, label_of, meaning_of};
-pub(crate) use diagram::diagram_of;
 pub(crate) use fill::Fill;
 pub use fill::{Along, BegunTile, Keep};
-pub(crate) use machine_diagram::machine_diagram_of;
 pub(crate) use map::{MapFill, Mapped};
 pub(crate) use memory::tiles_of;
 pub use memory::{Sheet, check_memory, in_memory};
@@ -41,7 +37,7 @@ pub(crate) use refine::Cell;
 pub use remarks::{closed_of, has_closed};
 pub use some_points::{PointColumns, points_until};
 pub(crate) use stored_motion::StoredMotion;
-pub(crate) use sweeps::{SweepFill, Swept};
+pub(crate) use sweeps::{SweepFill, Swept, diagram_of};
 pub use tables::{Cells, EachCount, StudyTable, Tiles};
 
 use crate::diagram::Show;
@@ -74,7 +70,7 @@ impl Study {
 
     /// The study of a fill, with all its fields.
     fn of(fill: Box<dyn Fill>) -> Self {
-        let (grid, kept) = (fill.grid().clone(), (0..fill.fields().len()).collect());
+        let (grid, kept) = (fill.over().grid.clone(), (0..fill.fields().len()).collect());
         Self { fill, grid, kept }
     }
 
@@ -111,7 +107,7 @@ impl Study {
                 let (machine, start) = source.described()?;
                 Box::new(MapFill::of_points(source, (&machine, &start), &many.typed()?, tile)?)
             }
-            Task::Diagram(diagram) => Box::new(SweepFill::of_machine(source, &diagram.typed()?, tile)),
+            Task::Diagram(diagram) => Box::new(SweepFill::new(source, &diagram.typed()?, tile)),
             Task::Lyapunov(lyapunov) if !lyapunov.axes.is_empty() => {
                 Box::new(LyapunovFill::of_machine(source, &lyapunov.typed()?, tile)?)
             }
@@ -148,7 +144,7 @@ impl Study {
     /// The coordinate values of the dimensions that have any.
     #[must_use]
     pub fn coordinates(&self) -> Vec<Along> {
-        self.fill.coordinates()
+        self.fill.over().coordinates.clone()
     }
 
     /// The fields (arrays) of the study.

@@ -1,6 +1,6 @@
 //! The starts of a basin, and the system of each: over axes, at points, or scattered.
 
-use super::fill::{Along, along, dimension, grid_of, on_axis};
+use super::fill::{Over, along_points, dimension, on_axis};
 use super::map::side;
 use crate::axis;
 use crate::basin::start_at;
@@ -24,40 +24,24 @@ pub(super) enum Starts {
 }
 
 impl Starts {
-    /// The grid of the starts, in tiles with this number of points along each axis.
-    pub(super) fn grid(&self, tile: Option<u32>) -> Grid {
+    /// The grid of the starts, in tiles with this number of points along each axis. Coordinates of points are several along one
+    /// dimension.
+    pub(super) fn over(&self, tile: Option<u32>) -> Over {
         let plan = match self {
             Self::Scattered { count, .. } => {
                 let tile = tile.map_or(side(TILE, 1), |tile| tile as usize).min(*count);
-                return Grid { dimensions: vec![Dimension { name: "start".into(), count: *count, tile }] };
+                let grid = Grid { dimensions: vec![Dimension { name: "start".into(), count: *count, tile }] };
+                return Over { grid, coordinates: Vec::new() };
             }
             Self::Grid(plan) => plan,
         };
-        let over = grid_of(&plan.axes, tile, side(TILE, plan.axes.len()));
+        let mut over = Over::usual(&plan.axes, tile, side(TILE, plan.axes.len()));
         let Some(points) = &plan.points else { return over };
         let sizes = if plan.axes.is_empty() { POINTS[usize::from(!plan.one_system())] } else { (1, 1) };
         let count = usize::try_from(points.count()).unwrap_or(usize::MAX);
-        let dimensions = [dimension(DIMENSION, count, tile, sizes)].into_iter().chain(over.dimensions).collect();
-        Grid { dimensions }
-    }
-
-    /// The coordinates of the dimensions that have any. Those of points are several along one dimension.
-    pub(super) fn coordinates(&self) -> Vec<Along> {
-        let Self::Grid(plan) = self else { return Vec::new() };
-        let of_points = plan.points.iter().flat_map(|points| {
-            (0..points.width()).map(|column| {
-                let vary = points.vary(column);
-                let count = usize::try_from(points.count()).unwrap_or(0);
-                Along {
-                    name: vary.name().to_owned(),
-                    dimension: DIMENSION.to_owned(),
-                    values: (0..count).map(|k| points.at(column, k)).collect(),
-                    long_name: vary.long_name().into(),
-                    unit: vary.unit(),
-                }
-            })
-        });
-        of_points.chain(along(&plan.axes)).collect()
+        over.grid.dimensions.insert(0, dimension(DIMENSION, count, tile, sizes));
+        over.coordinates.splice(0..0, along_points(points));
+        over
     }
 
     /// The start at a place of the grid, given the system there; `systems` are that of the plan and that at the place.

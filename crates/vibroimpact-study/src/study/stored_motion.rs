@@ -1,6 +1,5 @@
 //! What a store keeps of a motion: that of an oscillator, or that of a machine.
 
-use super::code;
 use crate::Unit;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::Verdict;
@@ -10,15 +9,14 @@ pub(crate) trait StoredMotion {
     /// The units of velocity and time.
     const UNITS: [Unit; 2];
 
-    /// The code of its label.
-    fn code(&self) -> i32;
-
     /// What the tables of numbered motions contain; `None` for a motion that its label names: all but cycles, and rests of a
     /// machine that has several stops.
     fn stored_cycle(&self) -> Option<StoredCycle>;
 
     /// Whether it is numbered.
-    fn is_numbered(&self) -> bool;
+    fn is_numbered(&self) -> bool {
+        self.stored_cycle().is_some()
+    }
 }
 
 /// A cycle, or a rest, in the tables of a study.
@@ -36,14 +34,6 @@ pub(crate) struct StoredCycle {
 impl StoredMotion for Verdict {
     const UNITS: [Unit; 2] = [Unit::VELOCITY, Unit::TIME];
 
-    fn code(&self) -> i32 {
-        code(self)
-    }
-
-    fn is_numbered(&self) -> bool {
-        matches!(self, Self::Periodic(_))
-    }
-
     fn stored_cycle(&self) -> Option<StoredCycle> {
         let Self::Periodic(cycle) = self else { return None };
         let [a, b] = cycle.multipliers;
@@ -58,14 +48,6 @@ impl StoredMotion for Verdict {
 
 impl StoredMotion for Verdict<Machine> {
     const UNITS: [Unit; 2] = [Unit::CONSISTENT; 2];
-
-    fn code(&self) -> i32 {
-        code(self)
-    }
-
-    fn is_numbered(&self) -> bool {
-        matches!(self, Self::Periodic(_)) || !self.closed().is_empty()
-    }
 
     fn stored_cycle(&self) -> Option<StoredCycle> {
         let Self::Periodic(cycle) = self else {

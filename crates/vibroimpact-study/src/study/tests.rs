@@ -227,13 +227,13 @@ fn a_diagram_is_that_of_its_steps() {
         let plan = DiagramPlan { also, direction, transient: 100, keep: 6, ..usual };
         let found = sheet(S, Task::from(plan.clone()), None, 2);
         let direct = crate::in_memory::diagram(&SweepFill::new(&S, &plan, Some(4)), &Control::default()).unwrap();
-        assert_eq!(diagram_of(&plan, &found.columns), direct);
+        assert_eq!(diagram_of::<SystemPlan>(&plan, &found.columns), direct);
         let beside = found.study.coordinates().into_iter().find(|along| along.name == "damping");
         assert_eq!(beside.map(|along| (along.dimension, along.values[10])), also.map(|_| ("gap".into(), 0.01)));
         let strobes = DiagramPlan { show: Show::Strobe, ..plan.clone() };
         let held = sheet(S, Task::from(strobes.clone()), None, 2);
         assert_eq!(
-            diagram_of(&strobes, &held.columns),
+            diagram_of::<SystemPlan>(&strobes, &held.columns),
             crate::in_memory::diagram(&SweepFill::new(&S, &strobes, Some(4)), &Control::default()).unwrap()
         );
         let speeds = columns(&found, "velocity").real();

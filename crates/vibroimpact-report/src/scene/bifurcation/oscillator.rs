@@ -140,15 +140,14 @@ mod tests {
     use crate::Units;
     use vibroimpact_plot::{Dash, Figure, Mark};
     use vibroimpact_study::diagram::{DiagramPoint, Show};
-    use vibroimpact_study::{Parameter, Stretch};
+    use vibroimpact_study::{Parameter, Span, Stretch};
 
     #[test]
     fn f10b_the_branches_of_the_labels_on_a_line() {
         let system = SystemPlan::from_inverse_beta(1.11, 1.5, 0.5);
         let (asked, control) = (Asked { system, units: Units::default() }, Control::default());
-        let task = r#"{"vary":"gap","over":"1.5:2.2:15","transient":100,"keep":8}"#;
-        let plan: DiagramPlan = serde_json::from_str(task).unwrap();
-        assert_eq!(plan.vary, Parameter::Gap);
+        let over = "1.5:2.2:15".parse::<Span>().unwrap();
+        let plan = DiagramPlan { transient: 100, keep: 8, ..DiagramPlan::new(Parameter::Gap, over) };
         let found = labels(&asked, &plan, 8, &control).unwrap();
         assert!(found.iter().any(|label| label == "1/1"), "{found:?}");
         let diagram = bifurcation(&asked, &plan, Some(&["1/1".into(), "2/2".into()]), &control).unwrap();

@@ -5,8 +5,8 @@ use crate::field::{Column, Field};
 use crate::machine::StartAxis;
 use crate::map::options;
 use crate::quantity::values_of;
-use crate::study::cycles::{Numbered, Numbering};
-use crate::study::fill::{Along, along, grid_between, machine_fields, on_axis, spread};
+use crate::study::cycles::Numbered;
+use crate::study::fill::{Over, machine_fields, on_axis, spread};
 use crate::study::map::side;
 use crate::study::remarks;
 use crate::{BasinPlan, Block, Grid, PlanError};
@@ -46,15 +46,13 @@ impl BasinFill<MachineBasin> {
     ) -> Result<Self, PlanError> {
         let places = plan.axes.iter().map(|axis| StartAxis::of(machine, &axis.vary)).collect::<Result<_, _>>()?;
         let (least, most) = if machine.reduced().is_some() { WIDE_TILE } else { TILE };
-        let grid = grid_between(&plan.axes, tile, (least, side(most, plan.axes.len())));
-        let mut start = start.clone();
-        start.q.resize(machine.n(), 0.0);
-        start.qdot.resize(machine.n(), 0.0);
-        let (machine, plan, options) = (machine.clone(), plan.clone(), options(plan.impacts));
+        let over = Over::axes(&plan.axes, tile, (least, side(most, plan.axes.len())));
+        let (machine, start) = (machine.clone(), start.clone());
+        let (plan, options) = (plan.clone(), options(plan.impacts));
         let bare = MachineBasin { machine, start, plan, places, options, known: KnownMotions::default() };
-        let traps = if grid.points() > FEW { TRAPS } else { 0 };
-        let known = KnownMotions::survey(&bare.machine, &bare.spread(&grid, traps), &bare.options);
-        Ok(Self::new(MachineBasin { known, ..bare }, grid))
+        let traps = if over.grid.points() > FEW { TRAPS } else { 0 };
+        let known = KnownMotions::survey(&bare.machine, &bare.spread(&over.grid, traps), &bare.options);
+        Ok(Self::new(MachineBasin { known, ..bare }, over))
     }
 }
 
@@ -94,10 +92,6 @@ impl Basins for MachineBasin {
 
     fn refine(&self) -> Option<u32> {
         self.plan.refine
-    }
-
-    fn coordinates(&self) -> Vec<Along> {
-        along(&self.plan.axes)
     }
 
     fn survey(&self, grid: &Grid) -> Census<Machine> {
@@ -164,7 +158,7 @@ impl Basins for MachineBasin {
         self.machine.stops().iter().map(|stop| stop.name.clone()).collect()
     }
 
-    fn numbered(numbering: Numbering<'_, Machine>) -> Numbered<'_> {
-        Numbered::Machine(numbering)
+    fn numbered(of: &BasinFill<Self>) -> Numbered<'_> {
+        Numbered::Machine(of)
     }
 }

@@ -6,8 +6,8 @@ use crate::grid::{Block, Grid};
 use crate::limits::MOST_STARTS;
 use crate::quantity::{Quantities, Quantity};
 use crate::study::code;
-use crate::study::cycles::{Numbered, Numbering};
-use crate::study::fill::{Along, spread};
+use crate::study::cycles::Numbered;
+use crate::study::fill::spread;
 use crate::study::starts::Starts;
 use crate::{BasinPlan, PlanError, SystemPlan};
 use vibroimpact::lanes::Width;
@@ -74,16 +74,16 @@ impl BasinFill<OscillatorBasin> {
         (refine, options): (Option<u32>, SettleOptions),
         tile: Option<u32>,
     ) -> Self {
-        let grid = starts.grid(tile);
+        let over = starts.over(tile);
         let bare = OscillatorBasin { system: *system, one: None, starts, refine, options };
         let one = osc.map(|osc| {
-            let total = grid.points();
+            let total = over.grid.points();
             // a motion that a trapping region captures is not followed to its end, so its length is not known
             let traps = if total > WORTH_A_SURVEY && !bare.transient() { TRAPS } else { 0 };
-            let starts = spread(total, traps).map(|k| bare.nth(&osc, &grid, k));
+            let starts = spread(total, traps).map(|k| bare.nth(&osc, &over.grid, k));
             (osc, KnownAttractors::survey(&osc, starts, &bare.options))
         });
-        Self::new(OscillatorBasin { one, ..bare }, grid)
+        Self::new(OscillatorBasin { one, ..bare }, over)
     }
 }
 
@@ -132,10 +132,6 @@ impl Basins for OscillatorBasin {
 
     fn refine(&self) -> Option<u32> {
         self.refine
-    }
-
-    fn coordinates(&self) -> Vec<Along> {
-        self.starts.coordinates()
     }
 
     fn survey(&self, grid: &Grid) -> Census {
@@ -190,7 +186,7 @@ impl Basins for OscillatorBasin {
         Vec::new()
     }
 
-    fn numbered(numbering: Numbering<'_, Oscillator>) -> Numbered<'_> {
-        Numbered::Oscillator(numbering)
+    fn numbered(of: &BasinFill<Self>) -> Numbered<'_> {
+        Numbered::Oscillator(of)
     }
 }
