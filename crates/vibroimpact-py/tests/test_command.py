@@ -1,13 +1,20 @@
-"""Answers in Python are those of the command, to the last bit: each call beside its command line. Both write them with one function."""
+"""Answers in Python are those of the command, to the last bit: each call beside its command line. Both write them with one function.
+
+And the command `vibro` that the package installs.
+"""
 
 import json
+import subprocess
+import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.__main__ import vibro as main
 
 SYSTEMS = {
     "--inverse-beta 1.3 --gap 0.75 --restitution 0.5": vi.Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5),
@@ -94,3 +101,52 @@ def test_a_contact_is_that_of_the_command(vibro: Callable[..., Any]) -> None:
     for given, sentence in (({"mass": 1, "stiffness": 5}, "hint: restitution, damping or damping_ratio"), ({"opening": "late"}, "unknown variant")):
         with pytest.raises(vi.QuestionError, match=sentence):
             vi.contact(**given)
+
+
+#: What the script of the package does, as pip writes it.
+SCRIPT = "#!{python}\nimport sys\nfrom vibroimpact.__main__ import vibro\nsys.exit(vibro())\n"
+
+
+@pytest.fixture
+def script(tmp_path: Path) -> Path:
+    file = tmp_path / "vibro"
+    file.write_text(SCRIPT.format(python=sys.executable))
+    file.chmod(0o755)
+    return file
+
+
+def run(*words: object) -> "subprocess.CompletedProcess[str]":
+    return subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=120)
+
+
+SETTLE = ("settle", "--inverse-beta", 1.8, "--gap", 0.25, "--restitution", 0.5)
+
+
+def test_it_is_declared(root: Path) -> None:
+    assert 'vibro = "vibroimpact.__main__:vibro"' in (root / "pyproject.toml").read_text()
+
+
+def test_it_answers_as_the_program(
+    script: Path, vibro: Callable[..., "subprocess.CompletedProcess[str]"], monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    for words in ((*SETTLE, "--json"), SETTLE, ("--version",), ("settle", "--gap", 1), ("orbit", "--help"), ("nothing",)):
+        other = vibro(*words)
+        monkeypatch.setattr(sys, "argv", [str(script), *map(str, words)])
+        code = main()
+        said = capfd.readouterr()
+        assert (code, said.out, said.err) == (other.returncode, other.stdout, other.stderr)
+    assert run(script, "--version").stdout.strip() == f"vibro {vi.__version__}"
+
+
+def test_job_scripts_name_it_and_exports_use_its_python(script: Path, s: vi.Oscillator, tmp_path: Path) -> None:
+    pytest.importorskip("zarr", minversion="3")
+    pytest.importorskip("pyarrow")
+    plan = vi.Plan.basin(s, {"x": [-1.0, 0.0], "v": [0.0, 1.0]})
+    file, store, table = tmp_path / "plan.json", tmp_path / "basin.zarr", tmp_path / "basin.parquet"
+    file.write_text(plan.json)
+    made = run(script, "slurm", file, "--jobs", 1, "--time", "01:00:00", "--store", store)
+    assert made.returncode == 0 and f"exec {script} run " in made.stdout.replace("'", "")
+    assert vi.run(plan, store).left == 0
+    done = run(script, "export", store, "--parquet", table)
+    assert done.returncode == 0 and table.is_file(), done.stderr

@@ -1,7 +1,6 @@
 """Exponents compared with exact values."""
 
 import math
-import pickle
 
 import numpy as np
 
@@ -17,7 +16,6 @@ def test_chaos_obeys_the_identity(u: vi.Oscillator) -> None:
     assert found.dimension is not None and abs(found.dimension.value - (1 + one.value / -two.value)) < 1e-12
     assert len(found.closings.phase) == len(found.strobes.q) == 500 and found.strobes.q.max() <= u.gap
     assert found.grounds["kind"] == "measured" and found.grounds["impacts"] >= 20_000
-    assert pickle.loads(pickle.dumps(found)).to_dict() == found.to_dict()
 
 
 def test_a_periodic_motion_has_those_of_its_multipliers(s: vi.Oscillator) -> None:

@@ -1,6 +1,5 @@
 """The titles of figures of Datasets are correct, whatever operations were applied to the Dataset before."""
 
-import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -247,22 +246,3 @@ def test_f09_fixed_parameters_are_coordinates(s: vi.Oscillator, tmp_path: Path) 
     # read by xarray alone, these parameters are only in the plan, and a figure does not state the plan
     with xr.open_zarr(tmp_path / "basin.zarr") as raw:
         assert raw.vibro.plot(plt.subplots()[1]).get_title() == ""
-
-
-def test_f09_three_values_may_be_a_range_or_a_list(s: vi.Oscillator) -> None:
-    for ask in (
-        lambda over: vi.region_map(s, {"gap": over}, starts=1),
-        lambda over: vi.orbit_diagram(s, "gap", over),
-        lambda over: vi.basin(s, {"restitution": over}, x="-1:0:2"),
-        lambda over: vi.basin(s, x=over),
-        lambda over: vi.Plan.lyapunov(s, {"gap": over}),
-    ):
-        with pytest.raises(vi.QuestionError) as refusal:
-            ask((0.5, 1.0, 2))
-        assert str(refusal.value) == (
-            "(0.5, 1.0, 2) may be three values or 2 values from 0.5 to 1.0\n"
-            'hint: [0.5, 1.0, 2] is a list; "0.5:1.0:2" or vibroimpact.span(0.5, 1.0, 2) is a range'
-        )
-    assert vi.region_map(s, {"gap": [0.5, 1.0, 2]}, starts=1)["gap"].values.tolist() == [0.5, 1, 2]
-    with pytest.raises(vi.QuestionError, match="is a tuple, which may be a list or a range"):
-        vi.region_map(s, {"gap": (0.5, 1.0)}, starts=1)  # type: ignore[dict-item]
