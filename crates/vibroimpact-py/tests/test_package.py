@@ -19,16 +19,6 @@ import vibroimpact as vi
 from vibroimpact._documented import fields_of
 
 
-def test_importing_drags_nothing_in() -> None:
-    program = """
-import sys
-import vibroimpact
-print(*sorted({"xarray", "matplotlib", "pandas", "zarr", "tqdm", "dask"} & set(sys.modules)))
-"""
-    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
-    assert run.stdout.strip() == ""
-
-
 def test_every_name_is_documented() -> None:
     for name in vi.__all__:
         of = getattr(vi, name)

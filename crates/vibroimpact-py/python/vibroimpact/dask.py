@@ -143,12 +143,12 @@ def _rolling(
         running.update(new)
         return list(new.values())
 
-    ended = as_completed(submit(in_flight), with_results=True)  # type: ignore[no-untyped-call]
+    ended = as_completed(submit(in_flight), with_results=True)
     try:
-        for batch in ended.batches():  # type: ignore[no-untyped-call]
+        for batch in ended.batches():
             for task, _ in batch:
                 running.pop(task.key, None)
             yield [result for _, result in batch]
-            ended.update(submit(in_flight - len(running)))  # type: ignore[no-untyped-call]
+            ended.update(submit(in_flight - len(running)))
     finally:
-        client.cancel(list(running.values()))  # type: ignore[no-untyped-call]
+        client.cancel(list(running.values()))
