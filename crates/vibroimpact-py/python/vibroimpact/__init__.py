@@ -47,12 +47,11 @@ from vibroimpact._branch import Branch, BranchEvent, Curve, CurveEvent, Origin
 from vibroimpact._contact import Contact, contact
 from vibroimpact._continuation import branch, curve, margins, region, response
 from vibroimpact._core import QuestionError, StoppedError, StoreError, __version__
-from vibroimpact._events import Events
+from vibroimpact._events import Events, Measured
 from vibroimpact._grids import basin, orbit_diagram, region_map
 from vibroimpact._lyapunov import Closings, Lyapunov, Strobes
 from vibroimpact._machine import Machine
 from vibroimpact._margins import MarginEnd, Margins, MotionBox, Nearest, ParameterMargin
-from vibroimpact._measured import Measured
 from vibroimpact._motion import Motion, Settled
 from vibroimpact._motions import Attractor, Attractors, EarlierContact, Edge, Orbit, Orbits, Settlement
 from vibroimpact._oscillator import Oscillator, Questions, Units

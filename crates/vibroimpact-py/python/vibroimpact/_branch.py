@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact import _core
-from vibroimpact._events import Events
-from vibroimpact._measured import complex_of
+from vibroimpact._events import Events, complex_of
 from vibroimpact._oscillator import Oscillator
 from vibroimpact._region import pair, pairs, ranges
 from vibroimpact._result import Answer, Floats, Made, View, column, field, parts

@@ -9,8 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from vibroimpact._core import QuestionError
-from vibroimpact._events import Events
-from vibroimpact._measured import all_measured, complex_of, maybe_measured
+from vibroimpact._events import Events, all_measured, complex_of, maybe_measured
 from vibroimpact._oscillator import Oscillator
 from vibroimpact._paint import named
 from vibroimpact._result import Answer, Made, View, field
