@@ -1,8 +1,7 @@
-"""Branches: their points, events and arrays."""
-
-import pickle
+"""Branches: their points, events and arrays; orbits that are inadmissible."""
 
 import numpy as np
+import pytest
 
 import vibroimpact as vi
 
@@ -37,7 +36,6 @@ def test_arrays_belong_together() -> None:
         assert np.array_equal(branch.stable | neutral, inside & branch.admissible | neutral)
         assert np.count_nonzero(neutral) <= len(branch.events) + 1
         assert branch.cycles[-1] == branch.cycles[count - 1]
-    assert pickle.loads(pickle.dumps(found)).to_dict() == found.to_dict()
 
 
 def test_a_line_through_two_parameters() -> None:
@@ -49,3 +47,16 @@ def test_a_line_through_two_parameters() -> None:
     assert flip.values is not None and flip.values == [flip.parameter, found.second[flip.point]]
     assert found.to_dict()["also"] == {"parameter": "inverse_beta", "from": 1.11, "to": 1.05}
     assert "with 1/$β$ from 1.11 to 1.05" in found.plot(diagram=True).get_xlabel()
+
+
+def test_solutions_that_are_no_motions_say_where_they_fail() -> None:
+    osc = vi.Oscillator(inverse_beta=1.9, gap=1, restitution=0.5)
+    virtual = vi.orbits(osc, "1/1")
+    assert len(virtual) == 1 and not virtual[0].admissible
+    contact = virtual[0].earlier_contact
+    assert contact is not None and (contact.after_impact, contact.stop) == (1, "upper")
+    # a simulation from there has this next impact
+    assert vi.simulate(osc, **virtual[0].start(), impacts=1).time[0] == pytest.approx(contact.time, rel=1e-12)
+    assert contact.time < osc.period
+    with pytest.raises(vi.QuestionError, match="is inadmissible"):
+        virtual[0].waveform()

@@ -1,13 +1,21 @@
-"""Answers in Python are those of the command, to the last bit: each call beside its command line. Both write them with one function."""
+"""Answers in Python are those of the command, to the last bit: each call beside its command line. Both write them with one function.
+
+And the command `vibro` that the package installs.
+"""
 
 import json
+import subprocess
+import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact import _core
+from vibroimpact.__main__ import vibro as main
 
 SYSTEMS = {
     "--inverse-beta 1.3 --gap 0.75 --restitution 0.5": vi.Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5),
@@ -45,8 +53,8 @@ CALLS: list[tuple[str, str, Callable[[Any], Any]]] = [
     (HAMMER, "branch --vary b --to 0.6", lambda of: vi.branch(of, "b", 0.6)),
     (FLIPS, "curve --label 1/1 --kind flip --vary gap=0:3 --and inverse-beta=1.05:1.2",
      lambda of: vi.curve(of, "flip", {"gap": (0, 3), "inverse_beta": (1.05, 1.2)}, label="1/1")),
-    (HAMMER, "curve --label 2/1 --kind fold --vary frequency=0.9:1.2 --and b=0.3:0.7",
-     lambda of: vi.curve(of, "fold", {"frequency": (0.9, 1.2), "b": (0.3, 0.7)}, label="2/1")),
+    (HAMMER, "curve --label 2/1 --kind fold --vary frequency=0.9:1.2 --and b=0.3:0.7 --points 5",
+     lambda of: vi.curve(of, "fold", {"frequency": (0.9, 1.2), "b": (0.3, 0.7)}, label="2/1", points=5)),
     ("--restitution 0.5", "region --label 1/1 --inverse-beta 0.6:0.9 --gap 1:3 --grid 8",
      lambda _: vi.region(SYSTEMS[S], "1/1", {"inverse_beta": (0.6, 0.9), "gap": (1, 3)}, grid=8)),
 ]
@@ -94,3 +102,55 @@ def test_a_contact_is_that_of_the_command(vibro: Callable[..., Any]) -> None:
     for given, sentence in (({"mass": 1, "stiffness": 5}, "hint: restitution, damping or damping_ratio"), ({"opening": "late"}, "unknown variant")):
         with pytest.raises(vi.QuestionError, match=sentence):
             vi.contact(**given)
+
+
+#: What the script of the package does, as pip writes it.
+SCRIPT = "#!{python}\nimport sys\nfrom vibroimpact.__main__ import vibro\nsys.exit(vibro())\n"
+
+
+@pytest.fixture
+def script(tmp_path: Path) -> Path:
+    file = tmp_path / "vibro"
+    file.write_text(SCRIPT.format(python=sys.executable))
+    file.chmod(0o755)
+    return file
+
+
+def run(*words: object) -> "subprocess.CompletedProcess[str]":
+    return subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=120)
+
+
+SETTLE = ("settle", "--inverse-beta", 1.8, "--gap", 0.25, "--restitution", 0.5)
+
+
+def test_it_is_declared(root: Path) -> None:
+    assert 'vibro = "vibroimpact.__main__:vibro"' in (root / "pyproject.toml").read_text()
+
+
+def test_it_answers_as_the_program(
+    script: Path, vibro: Callable[..., "subprocess.CompletedProcess[str]"], monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    for words in ((*SETTLE, "--json"), SETTLE, ("--version",), ("settle", "--gap", 1), ("orbit", "--help"), ("nothing",)):
+        other = vibro(*words)
+        monkeypatch.setattr(sys, "argv", [str(script), *map(str, words)])
+        code = main()
+        said = capfd.readouterr()
+        assert (code, said.out, said.err) == (other.returncode, other.stdout, other.stderr)
+    assert run(script, "--version").stdout.strip() == f"vibro {vi.__version__}"
+
+
+def test_job_scripts_name_it_and_exports_use_its_python(
+    script: Path, s: vi.Oscillator, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plan = vi.Plan.basin(s, {"x": [-1.0, 0.0], "v": [0.0, 1.0]})
+    file, store = tmp_path / "plan.json", tmp_path / "basin.zarr"
+    file.write_text(plan.json)
+    made = run(script, "slurm", file, "--jobs", 1, "--time", "01:00:00", "--store", store)
+    assert made.returncode == 0 and f"exec {script} run " in made.stdout.replace("'", "")
+    # the command is told the Python that writes; that it asks this Python is tested in `test_export.py`
+    said: list[object] = []
+    monkeypatch.setattr(_core, "vibro", lambda *given: said.append(given) or 0)
+    words = ["export", str(store), "--parquet", "basin.parquet"]
+    monkeypatch.setattr(sys, "argv", [str(script), *words])
+    assert main() == 0 and said == [(["vibro", *words, "--python", sys.executable], str(script))]

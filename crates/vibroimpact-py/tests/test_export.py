@@ -115,7 +115,7 @@ def test_a_study_of_a_body_is_in_its_units(tmp_path: Path) -> None:
 
 
 def test_the_command_asks_for_it(s: vi.Oscillator, vibro: Callable[..., Any], tmp_path: Path) -> None:
-    """By `python -m vibroimpact export`, here with a program that says how it was called; `test_vibro.py` has one that writes."""
+    """By `python -m vibroimpact export`, here with a program that says how it was called."""
     store, file, python = tmp_path / "one.zarr", tmp_path / "one.nc", tmp_path / "python"
     vi.run(vi.Plan.basin(s, {"x": "-4:0.75:9"}), store)
     file.touch()

@@ -71,7 +71,7 @@ def test_orbits_branches_and_curves() -> None:
     line = HAMMER.branch("frequency", 1.1, also={"b": 0.6})
     ax = line.plot()
     assert ax.get_xlabel() == "frequency, with b from 0.6 to 0.5" and {"stable", "simulation"} <= set(words(ax))
-    curve = HAMMER.curve("grazing", {"frequency": (0.9, 1.3), "b": (0.4, 0.6)})
+    curve = HAMMER.curve("grazing", {"frequency": (0.9, 1.3), "b": (0.4, 0.6)}, points=5)
     ax = curve.plot()
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("frequency", "b") and words(ax)[0] == f"grazing of {curve.label}"
     np.testing.assert_array_equal(ax.get_lines()[0].get_xdata()[1:], curve.values[:, 0])

@@ -30,7 +30,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-MACHINES, IMPACTS, GRAVITY = 20, 8, 9.80665
+MACHINES, IMPACTS, GRAVITY = 12, 8, 9.80665
 # relative to the size of the motion: error of SciPy in one flight, its tolerance for one step, and where comparisons end
 ACCURACY, STEP_TOLERANCE, USEFUL = 3e-10, 1e-11, 1e-5
 KINDS = ("base", "base, stop in space", "unbalance", "moving stop", "weight", "weight, two stops", "all together")

@@ -1,7 +1,5 @@
 """Margins: distances are compared with closed forms and with branches."""
 
-import pickle
-
 import pytest
 
 import vibroimpact as vi
@@ -17,7 +15,6 @@ def test_the_distance_is_that_of_the_branch() -> None:
     assert up.at is not None and abs(up.at - branch.events[0].parameter) < 1e-11
     assert up.distance == up.at - 1.5 and up.relative == up.distance / 1.5
     assert found.parameters["damping"].down.event is None and found.parameters["damping"].down.limit == 0
-    assert pickle.loads(pickle.dumps(found)).to_dict() == found.to_dict()
 
 
 def test_the_bars_end_at_the_events() -> None:

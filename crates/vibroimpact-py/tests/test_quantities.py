@@ -1,4 +1,7 @@
-"""Quantities of motions, as attributes, as fields of Datasets, and over a parameter."""
+"""Quantities of motions, as attributes, as fields of Datasets, and over a parameter; numbers of a body vary in SI units, and results
+are in the units of the body at each value."""
+
+import pickle
 
 import numpy as np
 import pytest
@@ -62,3 +65,65 @@ def test_a_response() -> None:
         found.plot(quantity="speed")
     listed = vi.response(osc, "gap", [0.5, 1.5, 0.75, 1.0])
     assert listed.up.parameter.tolist() == [0.5, 0.75, 1.0, 1.5] and listed.down.parameter.tolist() == [1.5, 1.0, 0.75, 0.5]
+
+
+MACHINE = vi.Oscillator.from_units(
+    mass=0.8, stiffness=12_000, force=30, damping_ratio=0.02, gap=1.5e-3, restitution=0.65, frequency=20
+)
+
+
+def speed(osc: vi.Oscillator) -> float:
+    """The largest impact speed from rest in m/s."""
+    assert osc.units is not None
+    return float(vi.settle(osc).quantities["impact_speed_max"]) * osc.units.velocity_m_per_s
+
+
+def test_a_map_over_force_and_frequency_in_si():
+    ds = vi.region_map(
+        MACHINE, {"force_n": [10, 20, 30], "frequency_hz": "15:25:3"}, starts=1, fields=["impact_speed_max"]
+    )
+    si = ds.vibro.si()
+    assert si["impact_speed_max"].attrs["units"] == "m/s"
+    assert si["impact_speed_max"].dims == ds["impact_speed_max"].dims
+    for force in (10.0, 20.0, 30.0):
+        for hertz in (15.0, 20.0, 25.0):
+            osc = MACHINE.replace(force_n=force, frequency_hz=hertz)
+            found = si["impact_speed_max"].sel(force_n=force, frequency_hz=hertz, motion=0).item()
+            assert found == pytest.approx(speed(osc), rel=1e-14)
+    # a selection has the units of its own force
+    one = ds.sel(force_n=20.0).vibro.si()
+    np.testing.assert_array_equal(one["impact_speed_max"], si["impact_speed_max"].sel(force_n=20.0))
+
+
+def test_a_number_is_replaced_and_all_others_are_held():
+    heavier = MACHINE.replace(mass_kg=1.6)
+    assert heavier.beta == pytest.approx(MACHINE.beta * np.sqrt(2), rel=1e-15)
+    assert (heavier.damping, heavier.gap, heavier.restitution) == (0.02, MACHINE.gap, 0.65)
+    assert heavier.units is not None and heavier.units.mass_kg == 1.6
+    assert MACHINE.replace(force_n=60).gap == pytest.approx(MACHINE.gap / 2, rel=1e-15)
+    again = pickle.loads(pickle.dumps(heavier))
+    assert again == heavier and again.replace(mass_kg=0.8) == MACHINE
+    with pytest.raises(vi.QuestionError, match="mass m = -1 kg lies outside"):
+        MACHINE.replace(mass_kg=-1)
+
+
+def test_a_response_over_a_number_is_in_si():
+    found = vi.response(MACHINE, "force_n", "10:30:3", quantity="impact_speed_max")
+    for force, value in zip(found.up.parameter, found.up.quantities["impact_speed_max"], strict=True):
+        assert value == pytest.approx(speed(MACHINE.replace(force_n=force)), rel=1e-9)
+
+
+def test_other_excitations():
+    shared = {"mass": 0.7, "stiffness": 900, "gap": 0.004, "restitution": 0.7, "omega": 31}
+    force = vi.Oscillator.from_units(**shared, force=0.7 * 31**2 * 0.002, damping=2.1)
+    for motion in ({"base_displacement": 0.002}, {"base_acceleration": 31**2 * 0.002}, {"unbalance": 0.7 * 0.002}):
+        osc = vi.Oscillator.from_units(**shared, **motion, damping=2.1)
+        assert osc.gap == pytest.approx(force.gap, rel=1e-14)
+    # the force of an unbalance grows as the square of the frequency
+    unbalance = vi.Oscillator.from_units(**shared, unbalance=0.0014)
+    faster = unbalance.replace(frequency_hz=2 * 31 / (2 * np.pi))
+    assert faster.gap == pytest.approx(unbalance.gap / 4, rel=1e-14)
+    with pytest.raises(vi.QuestionError, match="two forms of one number"):
+        vi.Oscillator.from_units(**shared, force=1, damping=1, damping_ratio=0.1)
+    with pytest.raises(vi.QuestionError, match="nondimensional"):
+        vi.response(vi.Oscillator(beta=1, gap=1, restitution=0.5), "force_n", "1:2:3")

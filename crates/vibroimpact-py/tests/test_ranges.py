@@ -37,6 +37,35 @@ def test_f07_one_formula(over: tuple[float, float, int], vibro: Callable[..., An
     assert [float(row.split(",")[0]) for row in done.stdout.splitlines()[1:]] == sorted(values.tolist())
 
 
+def test_ranges_are_texts_and_tuples_are_refused() -> None:
+    over = vi.span(0.5, 1.5, 5)
+    assert over == "0.5:1.5:5" and isinstance(over, str) and over.values().tolist() == [0.5, 0.75, 1.0, 1.25, 1.5]
+    for given, values in ((over, over.values().tolist()), ([0.5, 1.0, 2], [0.5, 1, 2])):
+        assert vi.region_map(OSC, {"gap": given}, starts=1, impacts=10)["gap"].values.tolist() == values
+    three = "(0.5, 1.0, 2) may be three values or 2 values from 0.5 to 1.0\n"
+    three += 'hint: [0.5, 1.0, 2] is a list; "0.5:1.0:2" or vibroimpact.span(0.5, 1.0, 2) is a range'
+    log = '(0.1, 1, 3, log) is a tuple, which may be a list or a range\nhint: "0.1:1:3:log" or vibroimpact.span(0.1, 1, 3, log=True) is a range'
+    two = "(0.5, 1.0) is a tuple, which may be a list or a range\nhint: [0.5, 1.0] is a list"
+    asks: list[Callable[[Any], Any]] = [
+        lambda over: vi.region_map(OSC, {"gap": over}, starts=1),
+        lambda over: vi.orbit_diagram(OSC, "gap", over),
+        lambda over: vi.basin(OSC, {"restitution": over}, x="-1:0:2"),
+        lambda over: vi.basin(OSC, x=over),
+        lambda over: vi.Plan.lyapunov(OSC, {"gap": over}),
+    ]
+    for given, sentence in (((0.5, 1.0, 2), three), ((0.1, 1, 3, "log"), log), ((0.5, 1.0), two)):
+        for ask in asks:
+            with pytest.raises(vi.QuestionError) as refusal:
+                ask(given)
+            assert str(refusal.value) == sentence
+    with pytest.raises(vi.QuestionError, match="asks for 0 values"):
+        vi.span(0, 1, 0)
+    with pytest.raises(vi.QuestionError, match="count = -1 lies outside 1 <= count"):
+        vi.span(0, 1, -1)
+    with pytest.raises(TypeError, match="count = 2.5 is not a whole number"):
+        vi.span(0, 1, 2.5)  # type: ignore[arg-type]
+
+
 def test_f07b_equal_ratios() -> None:
     ds = vi.region_map(OSC, {"beta": vi.span(0.01, 100, 5, log=True)}, starts=1, impacts=10)
     assert ds["beta"].values.tolist() == [0.01, 0.1, 1.0, 10.0, 100.0]

@@ -1,5 +1,6 @@
-"""Verdicts on one motion and on many."""
+"""Verdicts on one motion and on many; shares of starts; exponents compared with exact values."""
 
+import math
 import pickle
 
 import numpy as np
@@ -101,3 +102,57 @@ def test_doubles_are_read_where_they_are_and_results_are_handed_over(s: vi.Oscil
     cells = vi.settle_many(s, x).cells
     # the memory is owned by a Rust list
     assert not cells.flags.owndata and cells.flags.writeable
+
+
+def test_two_motions_share_the_starts(s: vi.Oscillator) -> None:
+    found = vi.attractors(s, starts=500)
+    assert len(found) == 2 and {motion.label for motion in found} == {"1/1", "2/1"}
+    assert found[0].share >= found[1].share and sum(motion.starts for motion in found) == 500
+    assert sum(motion.share for motion in found) == pytest.approx(1)
+    assert found.box["x"][1] == s.gap
+    assert vi.attractors(s, starts=500, threads=3).motions == found.motions
+    assert [m.starts for m in vi.attractors(s, starts=500, seed=7)] != [m.starts for m in found]
+
+
+def test_shares_have_intervals(s: vi.Oscillator) -> None:
+    """Wilson's interval and the share that may be missed, by their definitions."""
+    found = vi.attractors(s, starts=100)
+    z2 = 1.959963984540054**2 / 100
+    for motion in found:
+        p, (low, high) = motion.share, motion.share_interval
+        # the ends of the interval are the shares from which the observed one is z standard errors away
+        for end in (low, high):
+            assert (p - end) ** 2 == pytest.approx(z2 * end * (1 - end), rel=1e-9)
+        assert low < p < high
+    assert found.missed_below == pytest.approx(1 - 0.05**0.01, rel=1e-14)
+    data = found.to_dict()
+    assert data["share_intervals"] == [list(m.share_interval) for m in found]
+    assert data["missed_below"] == found.missed_below
+    settled = vi.settle_many(s, x=[0.0] * 100, v=0.0, phase=0.0)
+    assert settled.motions[0].share_interval == pytest.approx((1 / (1 + z2), 1.0), rel=1e-14)
+
+
+def test_chaos_obeys_the_identity(u: vi.Oscillator) -> None:
+    found = vi.lyapunov(u, impacts=20_000, points=500)
+    one, two = found.exponents
+    assert found.motion.label == "chaotic" and one.value > one.error > 0 > two.value
+    rate = found.impacts_per_period.value / u.period
+    assert abs(one.value + two.value - 2 * math.log(0.5) * rate) < 1e-9
+    assert found.dimension is not None and abs(found.dimension.value - (1 + one.value / -two.value)) < 1e-12
+    assert len(found.closings.phase) == len(found.strobes.q) == 500 and found.strobes.q.max() <= u.gap
+    assert found.grounds["kind"] == "measured" and found.grounds["impacts"] >= 20_000
+
+
+def test_a_periodic_motion_has_those_of_its_multipliers(s: vi.Oscillator) -> None:
+    found = vi.lyapunov(s, impacts=10_000)
+    assert found.motion.multipliers is not None
+    for exponent, multiplier in zip(found.exponents_per_period, found.motion.multipliers):
+        assert abs(exponent.value - math.log(abs(multiplier))) <= exponent.error
+
+
+def test_exact_ones_have_no_error() -> None:
+    stuck = vi.lyapunov(vi.Oscillator(beta=0.9, gap=-1.5, restitution=0.5))
+    assert stuck.exponents[0] == (-math.inf, 0.0) and stuck.grounds["kind"] == "stuck"
+    assert stuck.to_dict()["exponents"][0] == {"value": None, "error": None, "why": "minus_infinity"}
+    free = vi.lyapunov(vi.Oscillator(beta=0.5, gap=9, restitution=0.5, damping=0.1))
+    assert free.exponents[0] == (-0.1, 0.0) and np.isfinite(free.identity)

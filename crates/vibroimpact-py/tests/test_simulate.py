@@ -1,7 +1,6 @@
 """Motions event by event, and their waveforms."""
 
 import math
-import pickle
 
 import numpy as np
 
@@ -44,12 +43,6 @@ def test_ends_that_are_no_limit() -> None:
     free = vi.simulate(vi.Oscillator(beta=0.5, gap=40, restitution=0.5))
     assert len(free) == 0 and free.end == "no_more_impacts" and free.horizon is not None
     assert free.horizon["why"] == "amplitude" and free.horizon["periods"] is None
-
-
-def test_it_can_be_pickled(n: vi.Oscillator) -> None:
-    sim = vi.simulate(n, x=-1, impacts=50)
-    again = pickle.loads(pickle.dumps(sim))
-    assert again.to_dict() == sim.to_dict() and again.plan == sim.plan and repr(again) == repr(sim)
 
 
 def test_a_waveform_has_gaps_contacts_and_forces() -> None:

@@ -1,6 +1,5 @@
 """The titles of figures of Datasets are correct, whatever operations were applied to the Dataset before."""
 
-import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -90,7 +89,7 @@ def changed(ds: xr.Dataset, rng: np.random.Generator) -> xr.Dataset:
             return xr.concat([ds.isel(v=slice(half, None)), ds.isel(v=slice(None, half))], "v", data_vars="minimal")
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(24))
 def test_f09_figures_of_basins_state_what_they_show(
     basins: dict[float, xr.Dataset], truth: dict[tuple[float, float], vi.Settlement], seed: int,
     colours_at: Colours,
@@ -164,7 +163,7 @@ def diagrams() -> dict[float, xr.Dataset]:
     return {eps: vi.orbit_diagram(osc_of(eps), "gap", "0.5:1.5:5") for eps in EPSILONS}
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", range(12))
 def test_f09_figures_of_diagrams_state_what_they_show(diagrams: dict[float, xr.Dataset], seed: int) -> None:
     rng = np.random.default_rng(seed)
     order = rng.permutation(EPSILONS)
@@ -247,22 +246,3 @@ def test_f09_fixed_parameters_are_coordinates(s: vi.Oscillator, tmp_path: Path) 
     # read by xarray alone, these parameters are only in the plan, and a figure does not state the plan
     with xr.open_zarr(tmp_path / "basin.zarr") as raw:
         assert raw.vibro.plot(plt.subplots()[1]).get_title() == ""
-
-
-def test_f09_three_values_may_be_a_range_or_a_list(s: vi.Oscillator) -> None:
-    for ask in (
-        lambda over: vi.region_map(s, {"gap": over}, starts=1),
-        lambda over: vi.orbit_diagram(s, "gap", over),
-        lambda over: vi.basin(s, {"restitution": over}, x="-1:0:2"),
-        lambda over: vi.basin(s, x=over),
-        lambda over: vi.Plan.lyapunov(s, {"gap": over}),
-    ):
-        with pytest.raises(vi.QuestionError) as refusal:
-            ask((0.5, 1.0, 2))
-        assert str(refusal.value) == (
-            "(0.5, 1.0, 2) may be three values or 2 values from 0.5 to 1.0\n"
-            'hint: [0.5, 1.0, 2] is a list; "0.5:1.0:2" or vibroimpact.span(0.5, 1.0, 2) is a range'
-        )
-    assert vi.region_map(s, {"gap": [0.5, 1.0, 2]}, starts=1)["gap"].values.tolist() == [0.5, 1, 2]
-    with pytest.raises(vi.QuestionError, match="is a tuple, which may be a list or a range"):
-        vi.region_map(s, {"gap": (0.5, 1.0)}, starts=1)  # type: ignore[dict-item]

@@ -4,7 +4,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -136,22 +135,6 @@ def test_a_complete_store_is_not_written_to(plan: vi.Plan, tmp_path: Path) -> No
     times = {of: of.stat().st_mtime_ns for of in (place, *place.rglob("*"))}
     assert vi.run(plan, place).computed == vi.resume(place).computed == 0 and vi.open(place).load().attrs["complete"] == 1
     assert {of: of.stat().st_mtime_ns for of in (place, *place.rglob("*"))} == times
-
-
-def test_killed_and_resumed(tmp_path: Path, u: vi.Oscillator) -> None:
-    plan = vi.Plan.basin(u, {"x": "-4:3:45", "v": "-4:4:45"}, tile=9)
-    vi.run(plan, tmp_path / "one.zarr")
-    (tmp_path / "plan.json").write_text(plan.json)
-    program = f"import vibroimpact as vi; vi.run(vi.Plan.read({str(tmp_path / 'plan.json')!r}), {str(tmp_path / 'two.zarr')!r})"
-    seen = set()
-    for seconds in (0.3, 0.5, 0.8):
-        with subprocess.Popen([sys.executable, "-c", program]) as run:
-            time.sleep(seconds)
-            run.kill()
-        if (tmp_path / "two.zarr/zarr.json").exists():
-            seen.add(vi.status(tmp_path / "two.zarr").done)
-    vi.run(plan, tmp_path / "two.zarr")
-    assert contents(tmp_path / "two.zarr") == contents(tmp_path / "one.zarr"), seen
 
 
 def test_ctrl_c_keeps_what_is_done(tmp_path: Path) -> None:

@@ -13,6 +13,9 @@ OVER = {"gap": "0.5:1:2"}
 #: Call, argument, least and most; None where how many there are is not known beforehand.
 ARGUMENTS: list[tuple[Callable[..., Any], str, int, int | None]] = [
     (lambda osc, **of: vi.simulate(osc, **of), "impacts", 1, 10_000_000),
+    (lambda osc, **of: vi.settle(osc, **of), "impacts", 1, 1_000_000),
+    (lambda osc, **of: vi.response(osc, "gap", "0.5:1.5:3", **of), "impacts", 1, 1_000_000),
+    (lambda osc, **of: vi.attractors(osc, **of), "impacts", 1, 1_000_000),
     (lambda osc, **of: vi.attractors(osc, **of), "starts", 1, 1_000_000_000),
     (lambda osc, **of: vi.attractors(osc, **of), "seed", 0, 2**64 - 1),
     (lambda osc, **of: vi.attractors(osc, **of), "threads", 0, 65_535),

@@ -30,9 +30,9 @@ async function choosePoints(page, points) {
   await page.locator("#export-points").selectOption(points);
 }
 
-/** Every view as a picture; as figures and tables they are those of commands. */
-export async function exports_each_view_as_png({ open }) {
-  const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75&line=1.3,1,1.2,2&impacts=200", { ...SMALL, acceptDownloads: true });
+/** Every view has its commands, and a map and a motion are pictures; as figures and tables all are those of their commands, see below. */
+export async function exports_views_as_png({ open }) {
+  const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75&line=1.3,1,1.2,2&impacts=200", SMALL);
   await drawn(page);
   await until("a verdict", async () => (await page.locator(".verdict .label").count()) === 1 && (await verdict(page)) === "2/1");
   await page.locator("#export-button").click();
@@ -44,7 +44,7 @@ export async function exports_each_view_as_png({ open }) {
     await until(`the command of ${view}`, async () =>
       (await page.locator("#export pre").first().textContent()).startsWith("vibro "));
     assert.match(await page.locator("#export pre").last().textContent(), /import vibroimpact/);
-    if (view !== "attractors") assert.equal((await saved(page, "png")).toString("hex", 0, 4), "89504e47", view);
+    if (["plane", "waveform"].includes(view)) assert.equal((await saved(page, "png")).toString("hex", 0, 4), "89504e47", view);
   }
 }
 
@@ -61,7 +61,7 @@ export async function the_command_line_is_that_of_the_view({ open }) {
 
 /** The command and the table of each panel belong to that panel. */
 export async function f10_panels_export_what_they_show({ open }) {
-  const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75", { acceptDownloads: true });
+  const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75");
   await until("the panels are drawn", async () => (await pictures(page)) >= 4);
   for (const [panel, view, python, head] of [
     ["phase portrait", "phase", "motion.waveform()", "time,x,v,phase"],
@@ -77,23 +77,12 @@ export async function f10_panels_export_what_they_show({ open }) {
   }
 }
 
-/** Runs an exported command of the shell with this table as its output, and returns the table. */
-async function tableOf(command, folder) {
+/** Runs an exported command of the shell with a table (`csv`) or a figure (`plot`) as its output, and returns that. */
+async function outputOf(command, folder, kind) {
   const program = await readlink(`/proc/${process.env.VIBRO_PID}/exe`);
-  const file = `${folder}/table.csv`;
+  const file = `${folder}/${kind === "csv" ? "table.csv" : "figure.svg"}`;
   assert.match(command, /^vibro /);
-  // pictures that the command writes go to the folder too
-  const line = `${command.replace(/^vibro/, `'${program}'`).replace(/--(csv|plot) \S+/g, "")} --csv '${file}' --force`;
-  await promisify(execFile)("sh", ["-c", line], { cwd: folder });
-  return readFile(file, "utf8");
-}
-
-/** Runs an exported command of the shell with this figure as its output, and returns the figure. */
-async function figureOf(command, folder) {
-  const program = await readlink(`/proc/${process.env.VIBRO_PID}/exe`);
-  const file = `${folder}/figure.svg`;
-  assert.match(command, /^vibro /);
-  const line = `${command.replace(/^vibro/, `'${program}'`).replace(/--(csv|plot) \S+/g, "")} --plot '${file}' --force`;
+  const line = `${command.replace(/^vibro/, `'${program}'`).replace(/--(csv|plot) \S+/g, "")} --${kind} '${file}' --force`;
   await promisify(execFile)("sh", ["-c", line], { cwd: folder });
   return readFile(file, "utf8");
 }
@@ -129,7 +118,7 @@ export async function figures_of_quantities_and_machines_are_those_of_their_comm
       [`#machine=0.8,12000,30&x=beta&point=1&beta=0.77&gap=0.75&view=0.74,0.82,0.6,1&impacts=200&layers=${regions}paper,amplitude,stripes`, FEW,
         new RegExp(`--mass-kg 0\\.8 .*--layers ${regions}amplitude,paper,stripes --mark \\S+,0\\.001875 --plot`)],
     ]) {
-      const { page } = await open(hash, { ...TINY, acceptDownloads: true });
+      const { page } = await open(hash, TINY);
       await page.waitForSelector("#plane[data-picture]");
       if (hash.includes("colour")) await page.waitForSelector("#legend .bar-colours[data-range]");
       // the range of the colours in the command is that of the tiles that are there, so it changes until all are
@@ -140,8 +129,8 @@ export async function figures_of_quantities_and_machines_are_those_of_their_comm
       await until(`the command ${wanted}`, async () => wanted.test(await text.textContent()));
       const [table, figure] = (await text.textContent()).split("\n");
       const svg = await figureOfCommand(page, address, () => saved(page, "svg"));
-      assert.equal(await figureOf(figure, folder), svg, hash);
-      if (points === FEW) assert.equal(await tableOf(table, folder), (await saved(page, "csv")).toString(), hash);
+      assert.equal(await outputOf(figure, folder, "plot"), svg, hash);
+      if (points === FEW) assert.equal(await outputOf(table, folder, "csv"), (await saved(page, "csv")).toString(), hash);
     }
   } finally {
     await rm(folder, { recursive: true, force: true });
@@ -161,7 +150,7 @@ export async function every_export_is_that_of_its_command({ open, address }) {
       ["#machine=0.8,12000,30&x=beta&point=1&beta=0.77&gap=0.75&damping=0.02&start=0.1,0.2,0.3&view=0.7,1,0.4,2.2&line=0.7,1,0.8,1.2&layers=stripes&impacts=200&colour=displacement_max",
         "--mass-kg 0.8", /_(hz|m|s|m_per_s)\b|^re,im$|^section,/],
     ]) {
-      const { page } = await open(hash, { ...TINY, acceptDownloads: true });
+      const { page } = await open(hash, TINY);
       await drawn(page, hash.includes("colour"));
       await page.waitForSelector("#point .note:not(:empty)");
       if (hash.includes("colour")) await page.waitForSelector("[data-name=basin] .bar-colours[data-range]");
@@ -183,10 +172,10 @@ export async function every_export_is_that_of_its_command({ open, address }) {
         const saidByPage = (await saved(page, "csv")).toString();
         assert.match(saidByPage.split("\n")[0], head, view);
         assert.ok(saidByPage.split("\n").length > 2, view);
-        assert.equal(await tableOf(commands[0], folder), saidByPage, `${view} ${hash}`);
+        assert.equal(await outputOf(commands[0], folder, "csv"), saidByPage, `${view} ${hash}`);
         if (view === "attractors") continue;
         const svg = await figureOfCommand(page, address, () => saved(page, "svg"));
-        assert.equal(await figureOf(commands.at(-1), folder), svg, `${view} ${hash}`);
+        assert.equal(await outputOf(commands.at(-1), folder, "plot"), svg, `${view} ${hash}`);
       }
     }
   } finally {
@@ -195,7 +184,7 @@ export async function every_export_is_that_of_its_command({ open, address }) {
 }
 
 export async function the_figure_of_the_map_has_what_lies_over_it({ open }) {
-  const { page } = await open("#point=1&inverse_beta=1.3&gap=1&line=1.1,1.5,1.1,2.5&panel=line&layers=paper,amplitude,boundaries&view=0.9,1.5,0.5,3&impacts=200", { acceptDownloads: true });
+  const { page } = await open("#point=1&inverse_beta=1.3&gap=1&line=1.1,1.5,1.1,2.5&panel=line&layers=paper,amplitude,boundaries&view=0.9,1.5,0.5,3&impacts=200");
   await drawn(page);
   await page.locator("#export-button").click();
   await choosePoints(page, FEW);

@@ -1,28 +1,13 @@
 /** Tests of the map: what colours mean, sharpening, sliders, starts. */
 
 import assert from "node:assert/strict";
-import { complete, drawn, hash, legend, pixel, place, sharp, until } from "./page.mjs";
+import { complete, drawn, hash, legend, listRequests, pixel, place, sharp, until } from "./page.mjs";
 
 const progress = (page) => page.locator("#progress").textContent();
 
-/** Counts the tiles that are under way in the page, because the browser reports cancelled requests only later. */
-const countTiles = (page) => page.addInitScript(() => {
-  const original = globalThis.fetch;
-  globalThis.tiles = { under: 0, budgets: [] };
-  globalThis.fetch = async (path, options) => {
-    if (!/^.api.(tile|whole)/.test(path)) return original(path, options);
-    const { map, basin } = JSON.parse(options.body).task;
-    globalThis.tiles.budgets.push((map ?? basin).impacts);
-    globalThis.tiles.under++;
-    try {
-      const response = await original(path, options);
-      const bytes = await response.arrayBuffer();
-      return new Response(bytes, { status: response.status, headers: response.headers });
-    } finally {
-      globalThis.tiles.under--;
-    }
-  };
-});
+/** The tiles that were asked for, each with its budget and whether it is under way. */
+const asked = (page) => page.evaluate(() => globalThis.asked.filter(({ path }) => /^.api.(tile|whole)/.test(path))
+  .map(({ body, done }) => ({ under: !done, budget: Object.values(JSON.parse(body).task)[0].impacts })));
 
 const hide = (page, hidden) => page.evaluate((value) => {
   Object.defineProperty(document, "hidden", { value, configurable: true });
@@ -31,9 +16,9 @@ const hide = (page, hidden) => page.evaluate((value) => {
 
 export async function the_map_rests_while_hidden_and_pauses({ open }) {
   const { page } = await open("about:blank", { viewport: { width: 640, height: 520 } });
-  await countTiles(page);
-  const under = () => page.evaluate(() => globalThis.tiles.under);
-  const begun = () => page.evaluate(() => globalThis.tiles.budgets.length);
+  await listRequests(page);
+  const under = async () => (await asked(page)).filter((one) => one.under).length;
+  const begun = async () => (await asked(page)).length;
   // chaos, which takes long, and another window in every run, because the server keeps answers
   await page.goto(`${page.address}#view=1,1.3,2.6,${3.6 + 0.01 * Math.random()}&panel=none`);
   await until("it says what it does", async () => /^Sharpening, 20.000 impacts: \d+ of \d+ tiles sharp\.$/.test(await progress(page)));
@@ -58,7 +43,7 @@ export async function the_map_rests_while_hidden_and_pauses({ open }) {
 
 export async function the_map_sharpens_by_itself_and_keeps_what_is_decided({ open }) {
   const { page } = await open("about:blank", { whole: true, viewport: { width: 340, height: 290 } });
-  await countTiles(page);
+  await listRequests(page);
   const top = 2.4 + 0.01 * Math.random();
   await page.goto(`${page.address}#view=1.1,1.34,1.5,${top}&impacts=1000&panel=none`);
   const begin = Date.now();
@@ -70,7 +55,7 @@ export async function the_map_sharpens_by_itself_and_keeps_what_is_decided({ ope
   console.log(`        sharp after ${(first / 1000).toFixed(1)} s, complete after ${((Date.now() - begin) / 1000).toFixed(1)} s`);
   assert.equal(await progress(page), "Complete: every point computed, 1000 impacts.");
   assert.deepEqual(await decided(), colour, "what is decided keeps its colour");
-  const budgets = await page.evaluate(() => globalThis.tiles.budgets);
+  const budgets = (await asked(page)).map(({ budget }) => budget);
   assert.ok(budgets.indexOf(1000) > 0 && budgets[0] === 200, `first 200 impacts, then 1000: ${budgets}`);
   assert.equal(budgets.lastIndexOf(200) < budgets.indexOf(1000), true, "no tile is computed again before all are there");
   await until("nothing is undecided so far", async () => !(await legend(page)).has("undecided so far"));
@@ -168,24 +153,7 @@ export async function a_slider_is_followed_while_it_moves({ open }) {
 /** While a slider moves, there is one request at a time, for a coarse picture; the panels follow when it rests. */
 export async function only_the_map_is_computed_while_a_slider_moves({ open }) {
   const { page } = await open("about:blank");
-  await page.addInitScript(() => {
-    const original = globalThis.fetch;
-    globalThis.asked = [];
-    globalThis.fetch = async (path, options) => {
-      const one = { path: String(path).split("?")[0], body: options?.body ?? "", signal: options?.signal, done: false };
-      globalThis.asked.push(one);
-      // a request that was stopped ends a moment later
-      const runs = ({ path, done, signal }) => path === "/api/picture" && !done && !signal?.aborted;
-      one.abreast = globalThis.asked.filter(runs).length;
-      try {
-        const response = await original(path, options);
-        const bytes = await response.arrayBuffer();
-        return new Response(bytes, { status: response.status, headers: response.headers });
-      } finally {
-        one.done = true;
-      }
-    };
-  });
+  await listRequests(page);
   await page.goto(`${page.address}#point=1&inverse_beta=1.3&gap=0.75&line=1.3,1,1.2,2&layers=regions`);
   await drawn(page);
   await page.locator(".verdict .label").waitFor();

@@ -1,7 +1,7 @@
 /** Tests of the panel of the motion: the animation, the waveform, the portrait. */
 
 import assert from "node:assert/strict";
-import { answer, hash, until } from "./page.mjs";
+import { answer, hash, table, until } from "./page.mjs";
 
 const S = "#point=1&inverse_beta=1.3&gap=0.75";
 const SYSTEM = { inverse_beta: 1.3, gap: 0.75, restitution: 0.5, damping: 0 };
@@ -39,11 +39,7 @@ export async function the_animation_steps_through_the_impacts_of_the_command({ a
 export async function positions_are_those_of_the_table({ address, open }) {
   const { page } = await open(S);
   await moved(page);
-  const response = await fetch(`${address}api/table`, {
-    method: "POST", headers: { "content-type": "application/json" },
-    body: JSON.stringify({ version: 1, system: SYSTEM, task: { simulate: { start: {}, impacts: null, periods: 10 } } }),
-  });
-  const rows = (await response.text()).trim().split("\n").slice(1).map((line) => line.split(",").map(Number));
+  const rows = (await table(address, { simulate: { start: {}, impacts: null, periods: 10 } }, SYSTEM)).map((row) => row.map(Number));
   for (const [at, x, v] of [rows[7], rows[233], rows[611]]) {
     await slider(page).evaluate((input, value) => {
       input.value = value;

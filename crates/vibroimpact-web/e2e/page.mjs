@@ -65,15 +65,49 @@ export async function place(page, x, y, [left, right, bottom, top] = [0.375, 2.0
 /** The verdict in the panel. */
 export const verdict = (page) => page.locator(".verdict .label").textContent();
 
-/** Sends a question directly to the server. */
-export async function answer(address, task, system) {
-  const response = await fetch(`${address}api/answer`, {
+/** Sends a question directly to the server, for its answer or its table. */
+async function post(address, path, task, system) {
+  const response = await fetch(`${address}api/${path}`, {
     method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify({ version: 1, system, task }),
   });
-  const told = await response.json();
-  assert.ok(response.ok, told.error);
-  return told;
+  assert.ok(response.ok, await response.clone().text());
+  return response;
 }
+
+export const answer = async (address, task, system) => (await post(address, "answer", task, system)).json();
+
+/** The rows of a table, without its head. */
+export const table = async (address, task, system) =>
+  (await (await post(address, "table", task, system)).text()).trim().split("\n").slice(1).map((row) => row.split(","));
+
+/** The tasks that the page asks of a path from now on, of a kind such as `map`. */
+export function tasks(page, path, kind) {
+  const found = [];
+  page.on("request", (request) => {
+    const task = request.url().endsWith(path) && request.postDataJSON().task[kind];
+    if (task) found.push(task);
+  });
+  return found;
+}
+
+/** Lets a page that is loaded next list its requests in `asked`, because the browser reports cancelled ones only later. */
+export const listRequests = (page) => page.addInitScript(() => {
+  const original = globalThis.fetch;
+  globalThis.asked = [];
+  globalThis.fetch = async (path, options) => {
+    const one = { path: String(path).split("?")[0], body: options?.body ?? "", signal: options?.signal, done: false };
+    globalThis.asked.push(one);
+    // a request that was stopped ends a moment later
+    one.abreast = globalThis.asked.filter((of) => of.path === one.path && !of.done && !of.signal?.aborted).length;
+    try {
+      const response = await original(path, options);
+      const bytes = await response.arrayBuffer();
+      return new Response(bytes, { status: response.status, headers: response.headers });
+    } finally {
+      one.done = true;
+    }
+  };
+});
 
 /** The number of panels of the point with a picture: from the server, or drawn by the page. */
 export const pictures = (page) => page.evaluate(() =>

@@ -1,7 +1,7 @@
 /** Tests of the panels: enlarged, in a presentation, two points compared, basins over the phase, the sketch, the preview. */
 
 import assert from "node:assert/strict";
-import { WIDE, drawn, hash, onScreen, pictures, place, until, verdict } from "./page.mjs";
+import { WIDE, drawn, hash, onScreen, pictures, place, tasks, until, verdict } from "./page.mjs";
 
 const S = "#point=1&inverse_beta=1.3&gap=0.75";
 const head = (page, name) => page.locator(`[data-name=${name}] .head`).first();
@@ -108,10 +108,7 @@ export async function two_points_are_compared({ open, folder }) {
 export async function basins_follow_the_phase({ open }) {
   const { page } = await open(S);
   await until("the verdict", async () => (await page.locator(".verdict .label").count()) === 1);
-  const asked = [];
-  page.on("request", (request) => {
-    if (request.url().endsWith("/api/tile") && request.postDataJSON().task.basin) asked.push(request.postDataJSON().task.basin);
-  });
+  const asked = tasks(page, "/api/tile", "basin");
   const slider = page.locator("#phase");
   await slider.focus();
   await page.keyboard.press("End");

@@ -1,7 +1,7 @@
 /** Tests of the plane: tiles, zoom, hover, settings, address. */
 
 import assert from "node:assert/strict";
-import { SMALL, WIDE, answer, complete, drawn, hash, legend, pixel, place, sharp, until } from "./page.mjs";
+import { SMALL, WIDE, answer, complete, drawn, hash, legend, pixel, place, sharp, tasks, until } from "./page.mjs";
 
 export async function loads_without_a_complaint({ open }) {
   const { page } = await open();
@@ -24,10 +24,7 @@ export async function becomes_sharp_and_the_shares_with_it({ open }) {
 export async function zooms_ten_levels({ open }) {
   const { page } = await open("", WIDE);
   await drawn(page);
-  const tiles = [];
-  page.on("request", (request) => {
-    if (request.url().endsWith("/api/tile")) tiles.push(request.postDataJSON().task.map.axes[0].over);
-  });
+  const tiles = tasks(page, "/api/tile", "map");
   const [x, y] = await place(page, 1.11, 2.4);
   await page.mouse.move(x, y);
   for (let level = 0; level < 10; level++) {
@@ -42,8 +39,8 @@ export async function zooms_ten_levels({ open }) {
   const [left, right, bottom, top] = await view();
   // accurate to a pixel of the first view
   assert.ok(Math.abs((left + right) / 2 - 1.11) < 0.004 && Math.abs((bottom + top) / 2 - 2.4) < 0.01, "the pointer stays where it is");
-  await until("a sharp tile of that depth", () => tiles.some((over) => {
-    const [from, to, count] = String(over).split(":").map(Number);
+  await until("a sharp tile of that depth", () => tiles.some(({ axes }) => {
+    const [from, to, count] = String(axes[0].over).split(":").map(Number);
     return count === 128 && (to - from) / 127 < (right - left) / 500;
   }));
   await until("1/2 fills the view", async () => (await legend(page)).get("1/2") > 99);
@@ -71,13 +68,7 @@ export async function one_axis_is_zoomed_alone({ open, folder }) {
   // creates an entry in the history to go back to
   await page.mouse.click(...await place(page, 1.3, 1.5));
   await until("a point is chosen", async () => (await hash(page)).has("point"));
-  const tiles = [];
-  page.on("request", (request) => {
-    if (!request.url().endsWith("/api/tile")) return;
-    const { map } = request.postDataJSON().task;
-    // those with the first budget
-    if (map?.impacts === 200) tiles.push(map);
-  });
+  const tiles = tasks(page, "/api/tile", "map");
   const view = async () => (await hash(page)).get("view")?.split(",").map(Number);
   const box = await page.locator("#plane").boundingBox();
   const [x, y] = await place(page, 1.3, 1.5);
@@ -202,17 +193,14 @@ export async function at_most_three_tiles_are_under_way_and_those_out_of_view_ar
 export async function tiles_have_hardly_more_points_than_pixels({ open }) {
   // one motion everywhere, so that the server has little to compute
   const { page } = await open("#view=1.25,1.35,1.45,1.55", { viewport: { width: 1810, height: 905 } });
-  let points = 0;
-  page.on("request", (request) => {
-    if (!request.url().endsWith("/api/tile")) return;
-    const { axes, refine, impacts } = request.postDataJSON().task.map;
-    if (refine && impacts === 200) points += axes.reduce((product, { over }) => product * Number(over.split(":")[2]), 1);
-  });
+  const tiles = tasks(page, "/api/tile", "map");
   await page.reload();
   await sharp(page);
   const [x0, y0] = await place(page, 0, 0, [0, 1, 0, 1]);
   const [x1, y1] = await place(page, 1, 1, [0, 1, 0, 1]);
   const pixels = (x1 - x0) * (y0 - y1);
+  const points = tiles.filter(({ refine }) => refine).map(({ axes }) => axes.reduce((product, { over }) => product * Number(over.split(":")[2]), 1))
+    .reduce((sum, count) => sum + count, 0);
   // the surplus includes tiles at the edges, which are only partly visible
   assert.ok(points >= pixels && points < 1.6 * pixels, `${points} points for ${pixels} pixels`);
 }
@@ -221,10 +209,7 @@ export async function what_was_seen_is_not_asked_again({ open }) {
   const { page } = await open("#view=1.25,1.35,1.4,1.6&impacts=200", { whole: true, viewport: { width: 480, height: 400 } });
   // a tile that is sharp may still be asked for, to compute its filled points
   await complete(page);
-  const asked = [];
-  page.on("request", (request) => {
-    if (request.url().endsWith("/api/tile")) asked.push(request);
-  });
+  const asked = tasks(page, "/api/tile", "map");
   await page.locator("#zoom-in").click();
   await until("another level", async () => (await hash(page)).get("view") !== "1.25,1.35,1.4,1.6");
   // its tiles are requested a little later

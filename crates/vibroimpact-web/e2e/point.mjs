@@ -1,7 +1,7 @@
 /** Tests of the chosen point, its starts, and the line. */
 
 import assert from "node:assert/strict";
-import { drawn, hash, pictures, place, until, verdict } from "./page.mjs";
+import { drawn, hash, pictures, place, tasks, until, verdict } from "./page.mjs";
 
 const S = "#point=1&inverse_beta=1.3&gap=0.75";
 
@@ -38,10 +38,7 @@ export async function a_start_is_dragged({ open }) {
     box.x + frame[0] + ((x + 8) / 9.15) * (box.width - frame[0] - frame[3]),
     box.y + frame[2] + ((8 - v) / 16) * (box.height - frame[2] - frame[1]),
   ];
-  const settled = [];
-  page.on("request", (request) => {
-    if (request.url().endsWith("/api/answer") && request.postDataJSON().task.settle) settled.push(request);
-  });
+  const settled = tasks(page, "/api/answer", "settle");
   await page.mouse.move(...at(0, 0));
   await page.mouse.down();
   await page.mouse.move(...at(-2, -2), { steps: 12 });

@@ -32,6 +32,9 @@ const QUIET = [
   "--disable-component-update", "--disable-sync",
 ];
 
+/** Not large, because the server computes every point that is shown. */
+const VIEWPORT = { width: 1000, height: 640 };
+
 /** Impacts within which the motions of most tests are decided. */
 const BUDGET = 200;
 
@@ -46,15 +49,19 @@ function shallow(hash) {
   return `${hash || "#"}${hash.length > 1 ? "&" : ""}impacts=${BUDGET}`;
 }
 
+/** Pages that tests have left. The next test takes one: to open another one takes the browser twice as long. */
+const left = [];
+
 /**
  * Opens the page and collects its errors. A test that expects errors empties the list. With `full` it has the full budget, with
- * `whole` it asks for the points between others that agree too: the server would compute them as long as the page is open.
+ * `whole` it asks for the points between others that agree too: the server would compute them as long as the page is open. A test with
+ * other options, or one that begins at `about:blank`, has a page of its own.
  */
-async function open(hash = "", { full = false, whole = false, ...options } = {}) {
-  // not large, because the server computes every point that is shown
-  const context = await browser.newContext({ viewport: { width: 1000, height: 640 }, ...options });
-  if (!whole) await context.route(/\/api\/whole/, () => {});
-  const page = await context.newPage();
+async function open(hash = "", { full = false, whole = false, viewport = VIEWPORT, ...options } = {}) {
+  const shared = hash !== "about:blank" && !Object.keys(options).length;
+  const page = (shared && left.pop()) || await (await browser.newContext({ viewport, ...options })).newPage();
+  await page.setViewportSize(viewport);
+  if (!whole) await page.route(/\/api\/whole/, () => {});
   page.setDefaultTimeout(60000);
   const complaints = [];
   page.on("console", (message) => {
@@ -64,7 +71,21 @@ async function open(hash = "", { full = false, whole = false, ...options } = {})
   page.address = address;
   const shown = full ? hash : shallow(hash);
   await page.goto(shown === "about:blank" ? shown : address + shown);
-  return { page, context, complaints };
+  return { page, context: page.context(), complaints, shared };
+}
+
+/** Leaves a page for the next test, or closes it. */
+async function leave({ page, context, shared }, failed) {
+  if (!shared || failed || page.isClosed()) {
+    await context.close();
+    return;
+  }
+  for (const event of ["console", "pageerror", "request", "response"]) page.removeAllListeners(event);
+  await page.mouse.move(0, 0);
+  await page.goto("about:blank");
+  await page.unrouteAll({ behavior: "ignoreErrors" });
+  await context.clearPermissions();
+  left.push(page);
 }
 
 const chosen = part.split(",");
@@ -72,6 +93,7 @@ for (const module of [plane, map, settings, line, point, motion, panels, exporti
   for (const [name, test] of Object.entries(module)) {
     if (!chosen.some((one) => name.includes(one))) continue;
     const opened = [];
+    const before = failed;
     const begin = Date.now();
     try {
       await test({
@@ -90,7 +112,7 @@ for (const module of [plane, map, settings, line, point, motion, panels, exporti
       console.log(`FAILED  ${name}\n${error.stack}`);
       await opened.at(-1)?.page.screenshot({ path: `${folder}/failed-${name}.png` }).catch(() => {});
     }
-    for (const { context } of opened) await context.close();
+    for (const one of opened) await leave(one, failed > before);
   }
 }
 await browser.close();

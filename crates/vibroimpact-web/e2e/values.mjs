@@ -1,7 +1,7 @@
 /** Tests of quantities as colours. */
 
 import assert from "node:assert/strict";
-import { answer, drawn, hash, pixel, place, sharp, until } from "./page.mjs";
+import { answer, drawn, hash, pixel, place, sharp, table, tasks, until } from "./page.mjs";
 
 /** A view without undecided points. */
 const VIEW = [0.9, 1.4, 0.4, 1.4];
@@ -94,13 +94,7 @@ export async function basins_show_a_quantity_too({ open }) {
 /** After the first picture of the basins every point is computed, so that no thin arm is missing. */
 export async function the_last_picture_of_the_basins_computes_every_point({ open, address }) {
   const { page } = await open("about:blank");
-  const tiles = [];
-  page.on("request", (request) => {
-    if (request.url().endsWith("/api/tile")) {
-      const { task } = request.postDataJSON();
-      if (task.basin) tiles.push(task.basin);
-    }
-  });
+  const tiles = tasks(page, "/api/tile", "basin");
   await page.goto(`${address}#impacts=200&point=1&inverse_beta=1.3&gap=0.75`);
   const key = ({ axes }) => JSON.stringify(axes);
   const sides = ({ axes }) => Math.min(...axes.map(({ over }) => Number(String(over).split(":")[2] ?? 1)));
@@ -111,11 +105,8 @@ export async function the_last_picture_of_the_basins_computes_every_point({ open
   });
   // both motions are in such a tile, and the tile that is drawn last is one of them
   const [{ axes, start }] = fine().filter((tile) => tile.refine === undefined);
-  const told = await fetch(`${address}api/table`, {
-    method: "POST", headers: { "content-type": "application/json" },
-    body: JSON.stringify({ version: 1, system: { inverse_beta: 1.3, gap: 0.75, restitution: 0.5 }, task: { basin: { axes, start, impacts: 200 } } }),
-  });
-  const labels = (await told.text()).trim().split("\n").slice(1).map((row) => row.split(",").at(-1));
+  const rows = await table(address, { basin: { axes, start, impacts: 200 } }, { inverse_beta: 1.3, gap: 0.75, restitution: 0.5 });
+  const labels = rows.map((row) => row.at(-1));
   const sources = () => page.locator("#basin").getAttribute("data-picture");
   await until("the last tile that is drawn has every point", async () => /\|200\|1\|/.test(await sources()));
   assert.equal(new Set(labels).size, 2);

@@ -68,8 +68,11 @@ const withQuery = (path, query) => {
   return given.length ? `${path}?${new URLSearchParams(given)}` : path;
 };
 
+/** The JSON object of an answer. */
+const object = async (path, query, body, signal) => complete((await ask(withQuery(path, query), { body, signal })).json());
+
 /** The units of a body. @returns {Promise<{units: object, velocity_m_per_s: number, natural_hz: number}>} */
-export const units = async (machine, signal) => complete((await ask(withQuery("/api/units", machine), { signal })).json());
+export const units = (machine, signal) => object("/api/units", machine, undefined, signal);
 
 export const about = async () => (await ask("/api/about")).json();
 
@@ -145,8 +148,7 @@ export const answer = (plan, signal, onProgress) => told("/api/answer", plan, si
  * The motion of a `simulate` plan from its start, or that of a `settle` plan after its transient, as points and events.
  * @returns {Promise<object>}
  */
-export const motion = (plan, periods, signal) => counted("/api/motion", async () =>
-  complete((await ask(withQuery("/api/motion", { periods }), { body: plan, signal })).json()));
+export const motion = (plan, periods, signal) => counted("/api/motion", () => object("/api/motion", { periods }, plan, signal));
 
 /** @returns {Promise<{svg: string}>} the orbit diagram with its branches */
 export const bifurcation = (plan, query, signal, onProgress) =>
@@ -174,11 +176,10 @@ const drawn = (path, plan, query, signal) =>
 export const bifurcationTable = (plan, signal) => drawn("/api/bifurcation", plan, { table: true }, signal);
 
 /** @param {string} [kind] the view of a settled motion whose table is requested */
-export const table = (plan, kind, signal) =>
-  counted("/api/table", async () => complete((await ask(withQuery("/api/table", { kind }), { body: plan, signal })).blob()));
+export const table = (plan, kind, signal) => drawn("/api/table", plan, { kind }, signal);
 
 /**
  * @param {{kind?: string, colour?: string, of?: string, range?: string, layers?: string, mark?: string, line?: string}} query what the figure of the command shows
  * @returns {Promise<{vibro: string, python: string, figure: string | null}>}
  */
-export const command = async (plan, query, signal) => complete((await ask(withQuery("/api/command", query), { body: plan, signal })).json());
+export const command = (plan, query, signal) => object("/api/command", query, plan, signal);

@@ -128,8 +128,7 @@ function panels() {
     button.addEventListener("click", () => store.set({ panel: button.dataset.panelButton }));
   }
   byId("panel-show").addEventListener("click", () => store.set({ panel: "point" }));
-  store.on(["panel", "point"], show);
-  show();
+  store.show(["panel", "point"], show);
 }
 
 function toolbar() {

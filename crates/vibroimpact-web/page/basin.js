@@ -1,6 +1,7 @@
 /** The basin of the chosen point: the motion to which each start leads. The chosen start can be dragged. */
 
 import { CYCLES, Cycles } from "./cycles.js";
+import { strokes } from "./dom.js";
 import { START } from "./parameters.js";
 import { basinPlan, room, startOf, systemOf } from "./plans.js";
 import { budgets } from "./state.js";
@@ -135,12 +136,10 @@ export class Basin {
   paint(context, viewport, frame) {
     for (const at of room(this.store.state).filter(Number.isFinite)) {
       const [px] = viewport.toPixel(at, 0);
-      context.lineWidth = 2;
-      context.strokeStyle = frame.colours.ink;
-      context.beginPath();
-      context.moveTo(px, 0);
-      context.lineTo(px, viewport.height);
-      context.stroke();
+      strokes(context, [[2, frame.colours.ink]], () => {
+        context.moveTo(px, 0);
+        context.lineTo(px, viewport.height);
+      });
     }
     const [px, py] = viewport.toPixel(...this.place);
     for (const [r, colour] of [[0.62, "#000000"], [0.5, "#ffffff"], [0.34, "#b5221b"]]) {

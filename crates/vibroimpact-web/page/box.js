@@ -1,6 +1,6 @@
 /** Zoom to a rectangle that is dragged in the plane, with the button Box or with Shift held. */
 
-import { byId } from "./dom.js";
+import { byId, strokes } from "./dom.js";
 
 /** A rectangle with a side shorter than this number of pixels is ignored. */
 const SHORTEST = 8;
@@ -61,12 +61,10 @@ export class BoxZoom {
   paint(context, frame) {
     if (!this.box) return;
     const [[ax, ay], [bx, by]] = this.box;
-    for (const [width, colour] of [[3.5, "#ffffff"], [1.5, "#000000"]]) {
-      context.lineWidth = width;
-      context.strokeStyle = colour;
+    strokes(context, [[3.5, "#ffffff"], [1.5, "#000000"]], (width) => {
       context.setLineDash(width > 2 ? [] : [0.5 * frame.em, 0.3 * frame.em]);
-      context.strokeRect(Math.min(ax, bx), Math.min(ay, by), Math.abs(bx - ax), Math.abs(by - ay));
-    }
+      context.rect(Math.min(ax, bx), Math.min(ay, by), Math.abs(bx - ax), Math.abs(by - ay));
+    });
     context.setLineDash([]);
   }
 }

@@ -1,39 +1,33 @@
-/** The cache of tiles. */
-
-/** A cache of the most recently used tiles. */
+/** A cache of what was used most recently: tiles, motions. */
 export class Cache {
   constructor(most = 400) {
     this.most = most;
-    this.tiles = new Map();
+    this.kept = new Map();
   }
 
   get(key) {
-    const tile = this.tiles.get(key);
-    if (tile) {
-      this.tiles.delete(key);
-      this.tiles.set(key, tile);
+    const found = this.kept.get(key);
+    if (found) {
+      this.kept.delete(key);
+      this.kept.set(key, found);
     }
-    return tile;
-  }
-
-  has(key) {
-    return this.tiles.has(key);
+    return found;
   }
 
   delete(key) {
-    this.tiles.delete(key);
+    this.kept.delete(key);
   }
 
-  set(key, tile) {
-    this.tiles.set(key, tile);
-    for (const oldest of this.tiles.keys()) {
-      if (this.tiles.size <= this.most) break;
-      this.tiles.delete(oldest);
+  set(key, found) {
+    this.kept.set(key, found);
+    for (const oldest of this.kept.keys()) {
+      if (this.kept.size <= this.most) break;
+      this.kept.delete(oldest);
     }
   }
 
-  /** @returns {Iterable<import("./tiles.js").Tile>} all tiles */
+  /** @returns {Iterable<any>} all that is there */
   all() {
-    return this.tiles.values();
+    return this.kept.values();
   }
 }

@@ -1,6 +1,6 @@
 /** What the colours of the map and the basins are: motions, or the values of a quantity; and of which of several motions at a point. */
 
-import { element } from "./dom.js";
+import { choice, element } from "./dom.js";
 import { quantities } from "./values.js";
 
 const OF = { largest: "largest value", smallest: "smallest value", likeliest: "most frequent motion" };
@@ -14,8 +14,7 @@ export const quantitiesKnown = () => heard();
 /** @param {HTMLElement} host @param {import("./state.js").Store} store */
 export function colourChoice(host, store) {
   const what = element("select", { id: "colour", onchange: () => store.set({ colour: what.value || null, range: null }) });
-  const which = element("select", { id: "colour-of", onchange: () => store.set({ of: which.value }) },
-    ...Object.entries(OF).map(([value, text]) => element("option", { value, text })));
+  const which = choice({ id: "colour-of", onchange: () => store.set({ of: which.value }) }, Object.entries(OF));
   const row = element("label", { class: "row" }, element("span", { text: "of several motions" }), which);
   host.append(element("label", { class: "row" }, element("span", { text: "colour by" }), what), row);
   const show = () => {

@@ -1,14 +1,14 @@
 /** Two points side by side: a pinned one and the chosen one, each with its verdict, waveform and phase portrait. */
 
 import { answer } from "./api.js";
-import { element } from "./dom.js";
+import { element, strokes } from "./dom.js";
 import { Latest } from "./latest.js";
 import { panel } from "./panel.js";
 import { PARAMETERS, valueOf } from "./parameters.js";
-import { settlePlan, simulatePlan, startOf } from "./plans.js";
+import { settlePlan, startOf } from "./plans.js";
 import { Portrait } from "./portrait.js";
 import { short } from "./ticks.js";
-import { track } from "./track.js";
+import { trackOf } from "./track.js";
 import { inUnits, shownAs } from "./units.js";
 import { verdict } from "./verdict.js";
 import { Waveform } from "./waveform.js";
@@ -65,13 +65,11 @@ class Side {
   }
 
   async fetch(state, signal) {
-    const { periods } = state;
-    const of = (part) => track(inUnits(part === "settled" ? settlePlan(state) : simulatePlan(state), state), periods, signal);
     try {
       const { motion } = await answer(settlePlan(state), signal);
       this.verdict.replaceChildren(...verdict(motion));
-      this.wave.show(await of(state.wave));
-      this.portrait.show(await of(state.portrait));
+      this.wave.show(await trackOf(state, state.wave, signal));
+      this.portrait.show(await trackOf(state, state.portrait, signal));
     } catch (error) {
       this.shown = null;
       throw error;
@@ -120,10 +118,6 @@ export class Comparison {
     const other = pinned(state);
     const [px, py] = viewport.toPixel(valueOf(other, state.x), valueOf(other, state.y));
     const r = 0.45 * frame.em;
-    for (const [width, colour] of [[4.5, "#ffffff"], [2, "#000000"]]) {
-      context.lineWidth = width;
-      context.strokeStyle = colour;
-      context.strokeRect(px - r, py - r, 2 * r, 2 * r);
-    }
+    strokes(context, [[4.5, "#ffffff"], [2, "#000000"]], () => context.rect(px - r, py - r, 2 * r, 2 * r));
   }
 }

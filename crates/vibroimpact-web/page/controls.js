@@ -1,12 +1,11 @@
 /** Sliders and fields for parameters on no axis, and controls for axes, starts and budget. */
 
-import { byId, element, throttled } from "./dom.js";
+import { byId, choice, element, throttled } from "./dom.js";
 import { numberField } from "./field.js";
 import { PARAMETERS, isFrequency, ofSecondStop, patchOf, reasonAgainst, valueOf } from "./parameters.js";
 import { BUDGETS, MOST_STARTS } from "./state.js";
 import { grouped } from "./ticks.js";
 import { givenValue, shownAs, shownValue } from "./units.js";
-
 
 /** @param {import("./state.js").Store} store */
 export function controls(store) {
@@ -21,7 +20,8 @@ export function controls(store) {
     ...rows.slice(5).map((row) => row.box),
   );
   const starts = startsPerPoint(store);
-  const impacts = choice(store, "impacts", BUDGETS.map((n) => [n, `${grouped(n)} impacts`]));
+  const impacts = choice({ id: "impacts", onchange: () => store.set({ impacts: Number(impacts.value) }) },
+    BUDGETS.map((n) => [n, `${grouped(n)} impacts`]));
   byId("budget").append(
     starts.box,
     element("label", { class: "row" }, element("span", { text: "at most" }), impacts),
@@ -34,19 +34,13 @@ export function controls(store) {
     impacts.value = String(state.impacts);
     for (const row of rows) row.show();
   };
-  store.on(["x", "y", ...Object.keys(PARAMETERS), "second", "starts", "impacts", "machine"], show);
-  show();
+  store.show(["x", "y", ...Object.keys(PARAMETERS), "second", "starts", "impacts", "machine"], show);
 }
 
 function secondStop(store, second) {
   const { state } = store;
   const gap = Math.max(state.second_gap, 0.1 - state.gap);
   store.set(second ? { second, second_gap: gap } : { second });
-}
-
-function choice(store, name, options) {
-  return element("select", { id: name, onchange: (event) => store.set({ [name]: Number(event.target.value) }) },
-    ...options.map(([value, text]) => element("option", { value, text })));
 }
 
 /** The slider of the starts per point. The plane is computed only when it is released, because every start takes equally long. */
@@ -109,10 +103,11 @@ function showParameter(state, name, { box, range, field, title }) {
 
 /** The controls that choose the parameter of each axis. */
 function axes(store) {
-  const selects = ["x", "y"].map((axis) => element("select", {
+  // their texts are shown below
+  const selects = ["x", "y"].map((axis) => choice({
     id: `axis-${axis}`, "aria-label": axis === "x" ? "Parameter to the right" : "Parameter upwards",
     onchange: (event) => turn(store, axis, event.target.value),
-  }, ...Object.entries(PARAMETERS).map(([value, { symbol, words }]) => element("option", { value, text: `${symbol} ${words}` }))));
+  }, Object.keys(PARAMETERS).map((name) => [name, ""])));
   byId("axes").append(selects[0], element("span", { class: "times", text: "×" }), selects[1]);
   const show = () => {
     const { state } = store;
@@ -125,8 +120,7 @@ function axes(store) {
       }
     });
   };
-  store.on(["x", "y", "second", "machine"], show);
-  show();
+  store.show(["x", "y", "second", "machine"], show);
 }
 
 /** Puts a parameter on an axis. The other axis changes if the combination is not possible. */

@@ -34,6 +34,26 @@ export function drawn(name, attributes = {}, ...children) {
   return made;
 }
 
+/** A select. @param {Iterable<[any, string]>} options values with their texts */
+export const choice = (attributes, options) =>
+  element("select", attributes, ...Array.from(options, ([value, text]) => element("option", { value, text })));
+
+/**
+ * Draws lines on a canvas, several times one over the other.
+ * @param {CanvasRenderingContext2D} context
+ * @param {[number, string][]} strokes widths and colours, the broadest first
+ * @param {(width: number) => void} trace makes their path
+ */
+export function strokes(context, strokes, trace) {
+  for (const [width, colour] of strokes) {
+    context.lineWidth = width;
+    context.strokeStyle = colour;
+    context.beginPath();
+    trace(width);
+    context.stroke();
+  }
+}
+
 /** @param {string} id @returns {HTMLElement} */
 export const byId = (id) => document.getElementById(id);
 

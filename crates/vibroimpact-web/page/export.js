@@ -1,7 +1,7 @@
 /** The export dialog: figure, table, command line, Python. */
 
 import * as api from "./api.js";
-import { byId, element } from "./dom.js";
+import { byId, choice, element } from "./dom.js";
 import { Latest } from "./latest.js";
 import { valueOf } from "./parameters.js";
 import {
@@ -23,8 +23,8 @@ export class Export {
   constructor(store, views) {
     Object.assign(this, { store, views, dialog: byId("export") });
     this.choice = element("select", { id: "export-view", onchange: () => this.refresh() });
-    this.points = element("select", { id: "export-points", onchange: () => this.refresh() },
-      ...POINTS.map((n) => element("option", { value: n, text: `${n} × ${n}`, selected: n === 200 })));
+    this.points = choice({ id: "export-points", onchange: () => this.refresh() }, POINTS.map((n) => [n, `${n} × ${n}`]));
+    this.points.value = "200";
     this.pointsRow = element("label", { class: "row" }, element("span", { text: "points" }), this.points);
     this.said = element("p", { class: "note", role: "status" });
     this.files = element("div", { class: "buttons" }, ...["svg", "png", "csv"].map((format) =>

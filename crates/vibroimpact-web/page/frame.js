@@ -1,5 +1,6 @@
 /** Draws a tile view: the picture, the shading outside the legal range, axes, crosshair. */
 
+import { strokes } from "./dom.js";
 import { ticks } from "./ticks.js";
 import { titled } from "./units.js";
 
@@ -9,6 +10,14 @@ const SANS = 'system-ui, -apple-system, "Segoe UI", "Helvetica Neue", "Noto Sans
 /** Colours of what is no motion: not computed, and impossible. The style sheet adapts the picture to a dark page. */
 const BLANK = { ground: "#ffffff", ink: "#b4b6b0" };
 const IMPOSSIBLE = { ground: "#d2d3cd", ink: "#83857f" };
+
+/** Adds four lines around a point to a path, between two distances from it. */
+export function rays(context, [x, y], near, far) {
+  for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+    context.moveTo(x + near * dx, y + near * dy);
+    context.lineTo(x + far * dx, y + far * dy);
+  }
+}
 
 export class Frame {
   /** @param {import("./tileview.js").TileView} view */
@@ -131,17 +140,7 @@ export class Frame {
   }
 
   crosshair(context, x, y) {
-    const reach = 1.1 * this.em;
-    for (const [width, colour] of [[4, "#ffffff"], [1.6, "#000000"]]) {
-      context.lineWidth = width;
-      context.strokeStyle = colour;
-      context.beginPath();
-      for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
-        context.moveTo(x + 4 * dx, y + 4 * dy);
-        context.lineTo(x + reach * dx, y + reach * dy);
-      }
-      context.stroke();
-    }
+    strokes(context, [[4, "#ffffff"], [1.6, "#000000"]], () => rays(context, [x, y], 4, 1.1 * this.em));
   }
 
   axes(context) {

@@ -124,9 +124,7 @@ function spread(fingers) {
 }
 
 function pick(view, px) {
-  const { viewport: v } = view;
-  if (px[0] < 0 || px[1] < 0 || px[0] > v.width || px[1] > v.height) return;
-  view.dispatchEvent(new CustomEvent("pick", { detail: px }));
+  if (view.viewport.holds(px)) view.dispatchEvent(new CustomEvent("pick", { detail: px }));
 }
 
 /** Zooms, and reports if the numeric limit is reached. Tiles are requested only at the end of the gesture. */

@@ -1,7 +1,7 @@
 /** The layers over the plane: boundaries of regions, the amplitude of the motion without impacts, points of the paper. */
 
 import { layer } from "./api.js";
-import { byId, debounced, element } from "./dom.js";
+import { byId, debounced, element, strokes } from "./dom.js";
 import { Latest } from "./latest.js";
 import { PARAMETERS } from "./parameters.js";
 import { mapPlan, over, systemOf, within } from "./plans.js";
@@ -127,24 +127,20 @@ export class Layers {
     const { layers } = this.store.state;
     const shown = (kind) => layers.includes(kind) && this.known[kind]?.system === this.systemKey() && this.known[kind];
     for (const region of (shown("regions") || { regions: [] }).regions) {
-      for (const ring of region.rings) this.path(context, viewport, ring, [["#ffffff", 2.6], ["#000000", 1.1]], []);
+      for (const ring of region.rings) this.path(context, viewport, ring, [[2.6, "#ffffff"], [1.1, "#000000"]], []);
     }
     for (const curve of (shown("amplitude") || { curves: [] }).curves) {
-      this.path(context, viewport, curve, [["#ffffff", 3.4], ["#8c1d18", 1.8]], [7, 4]);
+      this.path(context, viewport, curve, [[3.4, "#ffffff"], [1.8, "#8c1d18"]], [7, 4]);
     }
     this.points(context, viewport, frame);
   }
 
-  path(context, viewport, points, strokes, dash) {
-    for (const [colour, width] of strokes) {
-      context.strokeStyle = colour;
-      context.lineWidth = width;
-      context.lineJoin = "round";
+  path(context, viewport, points, looks, dash) {
+    context.lineJoin = "round";
+    strokes(context, looks, (width) => {
       context.setLineDash(width > 2 ? [] : dash);
-      context.beginPath();
       for (const [x, y] of points) context.lineTo(...viewport.toPixel(x, y));
-      context.stroke();
-    }
+    });
     context.setLineDash([]);
   }
 

@@ -1,7 +1,7 @@
 /** A line in the plane, drawn with the pointer or the keyboard, and the bifurcation diagram along it. */
 
 import { bifurcation } from "./api.js";
-import { byId, element } from "./dom.js";
+import { byId, choice, element, strokes } from "./dom.js";
 import { numberField } from "./field.js";
 import { Figure } from "./figure.js";
 import { Latest } from "./latest.js";
@@ -38,9 +38,8 @@ export class LineTool {
     };
     this.told = element("p", { class: "place" });
     this.progress = element("progress", { max: "1", value: "0", hidden: true, "aria-label": "Bifurcation diagram" });
-    this.show = element("select", { id: "show", onchange: (event) => store.set({ show: event.target.value }) },
-      element("option", { value: "velocity", text: "speed of impacts" }),
-      element("option", { value: "strobe", text: "position once a period" }));
+    this.show = choice({ id: "show", onchange: (event) => store.set({ show: event.target.value }) },
+      [["velocity", "speed of impacts"], ["strobe", "position once a period"]]);
     this.linked = new LinkedDiagram(this.figure, store, plane);
     this.ends = this.endFields();
     this.events = element("section", { class: "events", "aria-label": "Events on the branches", hidden: true });
@@ -240,17 +239,13 @@ export class LineTool {
       const length = Math.hypot(dx, dy) || 1;
       // a short mark across each end
       const [sx, sy] = [(-5 * dy) / length, (5 * dx) / length];
-      for (const [colour, width] of [["#ffffff", 5], ["#b5221b", 2.4]]) {
-        context.strokeStyle = colour;
-        context.lineWidth = width;
-        context.beginPath();
+      strokes(context, [[5, "#ffffff"], [2.4, "#b5221b"]], () => {
         for (const end of ends) context.lineTo(...end);
         for (const [px, py] of ends) {
           context.moveTo(px - sx, py - sy);
           context.lineTo(px + sx, py + sy);
         }
-        context.stroke();
-      }
+      });
     }
   }
 }

@@ -1,6 +1,6 @@
 /** The bifurcation diagram along the line and the map show the same place: a mark in one for the pointer in the other. */
 
-import { element } from "./dom.js";
+import { element, strokes } from "./dom.js";
 import { placed } from "./plane.js";
 import { alongLine } from "./plans.js";
 
@@ -96,12 +96,6 @@ export class LinkedDiagram {
   paint(context, viewport, frame) {
     if (this.part === null || !this.fromDiagram || !this.store.state.line) return;
     const [px, py] = viewport.toPixel(...this.at(this.part));
-    for (const [width, colour] of [[5, "#ffffff"], [2.4, "#b5221b"]]) {
-      context.lineWidth = width;
-      context.strokeStyle = colour;
-      context.beginPath();
-      context.arc(px, py, 0.5 * frame.em, 0, 2 * Math.PI);
-      context.stroke();
-    }
+    strokes(context, [[5, "#ffffff"], [2.4, "#b5221b"]], () => context.arc(px, py, 0.5 * frame.em, 0, 2 * Math.PI));
   }
 }

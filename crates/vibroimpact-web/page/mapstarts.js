@@ -20,6 +20,5 @@ export function mapStarts(store) {
       : `${starts} starts at each point: ${colour ? "" : "stripes and "}the line below the map ${colour ? "has" : "have"} their shares.`;
     button.textContent = starts === 1 ? `Shares of ${OFFERED} starts` : "One start";
   };
-  store.on(["starts", "colour"], show);
-  show();
+  store.show(["starts", "colour"], show);
 }

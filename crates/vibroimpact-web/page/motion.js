@@ -1,13 +1,11 @@
 /** The panel of the motion: the waveform from the chosen start or after the transient, and beside it the mass that moves. */
 
-import { drawn, element } from "./dom.js";
+import { choice, drawn, element } from "./dom.js";
 import { Latest } from "./latest.js";
 import { Machine } from "./machine.js";
 import { panel } from "./panel.js";
-import { settlePlan, simulatePlan } from "./plans.js";
 import { Player } from "./player.js";
-import { track } from "./track.js";
-import { inUnits } from "./units.js";
+import { PARTS, trackOf } from "./track.js";
 import { Waveform } from "./waveform.js";
 
 /** Numbers of forcing periods to choose from. */
@@ -26,11 +24,9 @@ export class MotionPanel {
     this.player = new Player();
     this.cursor = drawn("path", { class: "cursor" });
     this.dot = drawn("circle", { class: "cursor-dot" });
-    this.from = element("select", { id: "wave", onchange: (event) => store.set({ wave: event.target.value }) },
-      element("option", { value: "start", text: "from the start" }),
-      element("option", { value: "settled", text: "after the transient" }));
-    this.periods = element("select", { id: "periods", onchange: (event) => store.set({ periods: Number(event.target.value) }) },
-      ...SPANS.map((n) => element("option", { value: n, text: n === 1 ? "1 period" : `${n} periods` })));
+    this.from = choice({ id: "wave", onchange: (event) => store.set({ wave: event.target.value }) }, PARTS);
+    this.periods = choice({ id: "periods", onchange: (event) => store.set({ periods: Number(event.target.value) }) },
+      SPANS.map((n) => [n, n === 1 ? "1 period" : `${n} periods`]));
     this.note = element("p", { class: "note" });
     this.box = panel("motion", "Motion and waveform", { exported, zoom: (factor) => this.zoom(factor) },
       element("div", { class: "controls span" },
@@ -60,11 +56,10 @@ export class MotionPanel {
   }
 
   async fetch(state, signal) {
-    const { periods, wave } = state;
-    const shown = await track(inUnits(wave === "settled" ? settlePlan(state) : simulatePlan(state), state), periods, signal);
+    const shown = await trackOf(state, state.wave, signal);
     this.note.textContent = "";
     this.wave.show(shown, true);
-    this.player.load(shown, wave === "settled");
+    this.player.load(shown, state.wave === "settled");
   }
 
   stop() {

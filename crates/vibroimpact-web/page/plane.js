@@ -1,8 +1,10 @@
 /** The plane of two parameters: its source of tiles, the point under the pointer, the chosen point. */
 
+import { strokes } from "./dom.js";
 import { PARAMETERS, isFrequency, legal, ofSecondStop, patchOf, valueOf } from "./parameters.js";
 import { legalRange, mapPlan, room, systemOf } from "./plans.js";
 import { budgets } from "./state.js";
+import { rays } from "./frame.js";
 import { TileView } from "./tileview.js";
 import { Viewport } from "./viewport.js";
 import { quantityOf, shownAs } from "./units.js";
@@ -164,18 +166,10 @@ export class Plane {
     if (!state.point) return;
     const [px, py] = viewport.toPixel(valueOf(state, state.x), valueOf(state, state.y));
     const r = 0.5 * frame.em;
-    for (const [width, colour] of [[4.5, "#ffffff"], [2, "#000000"]]) {
-      context.lineWidth = width;
-      context.strokeStyle = colour;
-      context.beginPath();
+    strokes(context, [[4.5, "#ffffff"], [2, "#000000"]], () => {
       context.arc(px, py, r, 0, 2 * Math.PI);
-      context.moveTo(px + r, py);
-      for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
-        context.moveTo(px + r * dx, py + r * dy);
-        context.lineTo(px + 1.9 * r * dx, py + 1.9 * r * dy);
-      }
-      context.stroke();
-    }
+      rays(context, [px, py], r, 1.9 * r);
+    });
   }
 
   /**

@@ -1,10 +1,10 @@
 /** The clock of the animation: play, slow motion, one impact after the other, and the position in time. It never starts by itself. */
 
-import { element } from "./dom.js";
+import { choice, element } from "./dom.js";
 import { short } from "./ticks.js";
 
 /** Seconds for a forcing period at each speed. */
-const SPEEDS = [["slowest", 16], ["slow", 6], ["medium", 2.5], ["fast", 1], ["fastest", 0.3]];
+const SPEEDS = [[16, "slowest"], [6, "slow"], [2.5, "medium"], [1, "fast"], [0.3, "fastest"]];
 
 export class Player extends EventTarget {
   constructor() {
@@ -12,8 +12,8 @@ export class Player extends EventTarget {
     Object.assign(this, { track: null, time: 0, playing: false, repeats: false });
     this.play = element("button", { type: "button", class: "play", text: "Play", onclick: () => (this.playing ? this.pause() : this.begin()) });
     this.step = element("button", { type: "button", text: "Next impact", onclick: () => this.toImpact() });
-    this.speed = element("select", { "aria-label": "Speed of the animation" },
-      ...SPEEDS.map(([name, seconds]) => element("option", { value: seconds, text: name, selected: name === "medium" })));
+    this.speed = choice({ "aria-label": "Speed of the animation" }, SPEEDS);
+    this.speed.value = "2.5";
     this.slider = element("input", {
       type: "range", min: 0, max: 1, step: "any", "aria-label": "Time in the animation", class: "time",
       oninput: () => this.go(Number(this.slider.value)),

@@ -1,12 +1,10 @@
 /** The phase portrait: velocity over position, with the stops, and the jumps at impacts. */
 
-import { drawn, element } from "./dom.js";
+import { choice, drawn, element } from "./dom.js";
 import { Latest } from "./latest.js";
 import { panel } from "./panel.js";
-import { settlePlan, simulatePlan } from "./plans.js";
 import { Plot } from "./plot.js";
-import { range, track } from "./track.js";
-import { inUnits } from "./units.js";
+import { PARTS, range, trackOf } from "./track.js";
 
 /** Maximum number of impacts with a dashed jump each. */
 const MARKED = 120;
@@ -66,9 +64,7 @@ export class PortraitPanel {
    */
   constructor(store, failed, exported) {
     this.portrait = new Portrait();
-    this.from = element("select", { id: "portrait", onchange: (event) => store.set({ portrait: event.target.value }) },
-      element("option", { value: "settled", text: "after the transient" }),
-      element("option", { value: "start", text: "from the start" }));
+    this.from = choice({ id: "portrait", onchange: (event) => store.set({ portrait: event.target.value }) }, PARTS.toReversed());
     this.dot = drawn("circle", { class: "cursor-dot" });
     this.note = element("p", { class: "note", text: "Dashed: the jump of the velocity at an impact." });
     const zoom = (factor) => this.portrait.track && this.portrait.plot.zoom(factor);
@@ -86,8 +82,7 @@ export class PortraitPanel {
   }
 
   async fetch(state, signal) {
-    const { periods, portrait } = state;
-    this.portrait.show(await track(inUnits(portrait === "settled" ? settlePlan(state) : simulatePlan(state), state), periods, signal));
+    this.portrait.show(await trackOf(state, state.portrait, signal));
   }
 
   stop() {

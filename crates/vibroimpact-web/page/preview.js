@@ -38,15 +38,14 @@ export function preview(plane, store) {
   };
   view.addEventListener("hover", ({ detail: px }) => {
     hide();
-    const { width, height } = view.viewport;
-    if (!px || px[0] < 0 || px[1] < 0 || px[0] > width || px[1] > height) return;
+    if (!view.viewport.holds(px)) return;
     timer = setTimeout(() => {
       const { state } = store;
       const [x, y] = view.viewport.toPlane(...px);
       if (!legal(PARAMETERS[state.x], x) || !legal(PARAMETERS[state.y], y)) return;
       const here = { ...state, ...placed(state, x, y) };
       const plan = { version: 1, system: systemOf(here), task: { settle: { start: {}, impacts: IMPACTS } } };
-      asked.ask({ plan, side: px[0] < width / 2 ? "right" : "left" }, true);
+      asked.ask({ plan, side: px[0] < view.viewport.width / 2 ? "right" : "left" }, true);
     }, REST);
   });
   view.host.addEventListener("pointerdown", hide);

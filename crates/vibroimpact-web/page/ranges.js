@@ -43,6 +43,5 @@ export function ranges(store, plane) {
   };
   view.addEventListener("tiles", show);
   view.addEventListener("view", show);
-  store.on(["x", "y", "view", "machine"], show);
-  show();
+  store.show(["x", "y", "view", "machine"], show);
 }

@@ -1,6 +1,6 @@
 /** The line below the plane: the motions at the pointer or the cross, or the chosen point with all digits of its coordinates. */
 
-import { byId, debounced, element, swatch } from "./dom.js";
+import { byId, element, swatch } from "./dom.js";
 import { copy } from "./links.js";
 import { PARAMETERS, valueOf } from "./parameters.js";
 import { shownAs, shownValue } from "./units.js";
@@ -17,20 +17,14 @@ export class Readout {
     const { view } = plane;
     view.addEventListener("hover", ({ detail }) => this.move(detail));
     view.surface.addEventListener("blur", () => this.move(null));
-    const spoken = debounced((px) => {
-      const { place, motions } = plane.tell(px);
-      say(`${place}: ${motions}`);
-    }, 400);
-    view.addEventListener("crosshair", ({ detail }) => spoken(detail));
+    view.spoken((px) => plane.tell(px), say);
     // what is under a pointer that rests changes when the view does
     view.addEventListener("drawn", () => this.refresh());
-    store.on(["point", "x", "y", "machine", "beta", "second", ...Object.keys(PARAMETERS)], () => this.refresh());
-    this.refresh();
+    store.show(["point", "x", "y", "machine", "beta", "second", ...Object.keys(PARAMETERS)], () => this.refresh());
   }
 
   move(px) {
-    const { width, height } = this.plane.view.viewport;
-    this.at = px && px[0] >= 0 && px[1] >= 0 && px[0] <= width && px[1] <= height ? px : null;
+    this.at = this.plane.view.viewport.holds(px) ? px : null;
     this.refresh();
   }
 

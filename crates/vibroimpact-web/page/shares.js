@@ -15,14 +15,9 @@ export function shares(view) {
     sample(view, counts);
     return { counts, coarse: true };
   }
-  const { left, right, bottom, top } = ends(view.viewport);
-  const cut = (low, high, begin, h, count) => [
-    Math.max(0, Math.round((low - begin) / h)), Math.min(count, Math.round((high - begin) / h)),
-  ];
   for (const [a, b] of view.places(level)) {
     const { tile } = view.supply.best(level, a, b);
-    if (!tile.classes) continue;
-    tile.count(counts, cut(left, right, tile.x0, tile.hx, tile.columns), cut(bottom, top, tile.y0, tile.hy, tile.rows));
+    if (tile.classes) tile.count(counts, ...inView(tile, view.viewport));
   }
   return { counts, coarse: false };
 }
@@ -36,15 +31,17 @@ export function extremes(view) {
   const level = view.level();
   const found = { low: Infinity, high: -Infinity, missing: new Set(), coarse: !view.supply.covered(level) };
   const tiles = found.coarse ? view.supply.known() : [...view.places(level)].map(([a, b]) => view.supply.best(level, a, b).tile);
-  const { left, right, bottom, top } = ends(view.viewport);
-  const cut = (low, high, begin, h, count) => [
-    Math.min(count, Math.max(0, Math.round((low - begin) / h))), Math.max(0, Math.min(count, Math.round((high - begin) / h))),
-  ];
   for (const tile of tiles) {
-    if (!tile.values) continue;
-    tile.extremes(found, cut(left, right, tile.x0, tile.hx, tile.columns), cut(bottom, top, tile.y0, tile.hy, tile.rows), view.source.quantity.of);
+    if (tile.values) tile.extremes(found, ...inView(tile, view.viewport), view.source.quantity.of);
   }
   return found;
+}
+
+/** The columns and the rows of a tile that are in view. */
+function inView({ x0, y0, hx, hy, columns, rows }, viewport) {
+  const { left, right, bottom, top } = ends(viewport);
+  const place = (at, begin, h, count) => Math.min(count, Math.max(0, Math.round((at - begin) / h)));
+  return [[place(left, x0, hx, columns), place(right, x0, hx, columns)], [place(bottom, y0, hy, rows), place(top, y0, hy, rows)]];
 }
 
 function ends(viewport) {

@@ -85,8 +85,7 @@ function sketch(host, store) {
         element("dd", {}, words, value ? element("span", { class: "value", text: ` ${value}` }) : null),
       ])));
   };
-  store.on([...Object.keys(PARAMETERS), "second", "start"], show);
-  show();
+  store.show([...Object.keys(PARAMETERS), "second", "start"], show);
 }
 
 /** The sketch in its dialog, and beside the map while no point is chosen. @param {import("./state.js").Store} store */

@@ -32,11 +32,7 @@ export class Starts {
     this.basin = new Basin(this.host, store, parts, { dragged: (at) => startAt(at, true), dropped: (at) => startAt(at, false) });
     this.legend = new Legend(across, this.basin.view, store);
     this.basin.view.addEventListener("hover", ({ detail }) => this.hover(detail));
-    const spoken = debounced((px) => {
-      const { place, motions } = this.basin.tell(px);
-      say(`${place}: ${motions}`);
-    }, 400);
-    this.basin.view.addEventListener("crosshair", ({ detail }) => spoken(detail));
+    this.basin.view.spoken((px) => this.basin.tell(px), say);
     this.inputs = this.startFields();
   }
 
@@ -118,9 +114,7 @@ export class Starts {
   }
 
   hover(px) {
-    const { viewport: v } = this.basin.view;
-    const inside = px && px[0] >= 0 && px[1] >= 0 && px[0] <= v.width && px[1] <= v.height;
-    if (!inside || !this.basin.view.source) {
+    if (!this.basin.view.viewport.holds(px) || !this.basin.view.source) {
       this.said.textContent = HINT;
       return;
     }

@@ -191,6 +191,12 @@ export class Store {
     this.listeners.push({ names, listener, meanwhile, missed: new Set() });
   }
 
+  /** Calls a listener now, and when one of these parts changes. */
+  show(names, listener) {
+    this.on(names, listener);
+    listener(this.state);
+  }
+
   /**
    * Changes parts of the state.
    * @param {Partial<State>} patch

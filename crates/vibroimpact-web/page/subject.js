@@ -38,10 +38,9 @@ export function subject(store, resized) {
       resized();
     }
   };
-  store.on(["present", "subject", "tour", "point", "panel", "line", "pin"], show);
+  store.show(["present", "subject", "tour", "point", "panel", "line", "pin"], show);
   // which panels there are depends on the motion
   new MutationObserver(show).observe(host, { attributes: true, attributeFilter: ["hidden"], subtree: true });
-  show();
 }
 
 function choose(store, name) {

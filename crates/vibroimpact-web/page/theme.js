@@ -20,6 +20,5 @@ export function theme(button, store, changed) {
     store.set({ theme: asSystem ? null : wanted }, "replace");
   });
   SYSTEM.addEventListener("change", apply);
-  store.on(["theme"], apply);
-  apply();
+  store.show(["theme"], apply);
 }

@@ -16,6 +16,7 @@
  * @property {(id: number) => {name: string, colour: string}} look
  */
 
+import { debounced } from "./dom.js";
 import { Frame } from "./frame.js";
 import { gestures } from "./gestures.js";
 import { Supply } from "./supply.js";
@@ -176,6 +177,14 @@ export class TileView extends EventTarget {
     const tile = this.supply.known().findLast((known) => known.contains(x, y));
     const found = tile ? tile.at(x, y).map((one) => ({ ...one, ...this.source.look(one.id) })) : [];
     return { x, y, found };
+  }
+
+  /** Says what is at the cross, when it rests. @param {(px: number[]) => {place: string, motions: string}} tell */
+  spoken(tell, say) {
+    this.addEventListener("crosshair", debounced(({ detail }) => {
+      const { place, motions } = tell(detail);
+      say(`${place}: ${motions}`);
+    }, 400));
   }
 
   /** Schedules a drawing. */

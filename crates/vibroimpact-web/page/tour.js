@@ -54,8 +54,7 @@ export function tour(store, say) {
     }
     shown = step;
   };
-  store.on(["tour"], show);
-  show();
+  store.show(["tour"], show);
 }
 
 /** Goes to a step, 0 to leave. */

@@ -11,6 +11,9 @@
  */
 
 import { motion } from "./api.js";
+import { Cache } from "./cache.js";
+import { settlePlan, simulatePlan } from "./plans.js";
+import { inUnits } from "./units.js";
 
 /** Number of motions kept. */
 const KEPT = 8;
@@ -79,7 +82,11 @@ export function range(values) {
   return [low, high];
 }
 
-const kept = new Map();
+/** The parts of a motion that are shown: the plan of each, and its name. */
+const PLANS = { start: simulatePlan, settled: settlePlan };
+export const PARTS = [["start", "from the start"], ["settled", "after the transient"]];
+
+const kept = new Cache(KEPT);
 
 /**
  * A motion, from the server or from memory.
@@ -91,11 +98,9 @@ const kept = new Map();
 export async function track(plan, periods, signal) {
   const key = JSON.stringify([plan, periods]);
   const found = kept.get(key) ?? new Track(await motion(plan, periods, signal));
-  kept.delete(key);
   kept.set(key, found);
-  for (const oldest of kept.keys()) {
-    if (kept.size <= KEPT) break;
-    kept.delete(oldest);
-  }
   return found;
 }
+
+/** A part of the motion of a state, in its units. */
+export const trackOf = (state, part, signal) => track(inUnits(PLANS[part](state), state), state.periods, signal);

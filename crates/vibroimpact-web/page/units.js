@@ -137,6 +137,5 @@ export function units(store, failed, changed) {
     if (state.machine && !known.has(keyOf(state))) asked.ask(structuredClone(state), true);
     else if (what?.has("machine")) changed();
   };
-  store.on(["machine", "inverse_beta", "beta", "gap", "second", "second_gap"], show);
-  show();
+  store.show(["machine", "inverse_beta", "beta", "gap", "second", "second_gap"], show);
 }

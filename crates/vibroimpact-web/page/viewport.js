@@ -64,6 +64,11 @@ export class Viewport {
     return [this.cx + (px - this.width / 2) * this.hx, this.cy - (py - this.height / 2) * this.hy];
   }
 
+  /** Whether a pixel, if there is one, is in the window. */
+  holds(px) {
+    return Boolean(px) && px[0] >= 0 && px[1] >= 0 && px[0] <= this.width && px[1] <= this.height;
+  }
+
   pan(dx, dy) {
     this.cx -= dx * this.hx;
     this.cy += dy * this.hy;

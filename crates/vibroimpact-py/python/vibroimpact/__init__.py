@@ -43,21 +43,17 @@ from typing import TYPE_CHECKING
 
 from vibroimpact import _grids, dask
 from vibroimpact._arguments import Span, set_threads, span
-from vibroimpact._attractors import Attractor, Attractors, Settlement
-from vibroimpact._branch import Branch, BranchEvent, Origin
+from vibroimpact._branch import Branch, BranchEvent, Curve, CurveEvent, Origin
 from vibroimpact._contact import Contact, contact
 from vibroimpact._continuation import branch, curve, margins, region, response
 from vibroimpact._core import QuestionError, StoppedError, StoreError, __version__
-from vibroimpact._curve import Curve, CurveEvent
-from vibroimpact._edge import Edge
-from vibroimpact._events import Events
+from vibroimpact._events import Events, Measured
 from vibroimpact._grids import basin, orbit_diagram, region_map
 from vibroimpact._lyapunov import Closings, Lyapunov, Strobes
 from vibroimpact._machine import Machine
 from vibroimpact._margins import MarginEnd, Margins, MotionBox, Nearest, ParameterMargin
-from vibroimpact._measured import Measured
 from vibroimpact._motion import Motion, Settled
-from vibroimpact._orbits import EarlierContact, Orbit, Orbits
+from vibroimpact._motions import Attractor, Attractors, EarlierContact, Edge, Orbit, Orbits, Settlement
 from vibroimpact._oscillator import Oscillator, Questions, Units
 from vibroimpact._plan import Estimate, Plan
 from vibroimpact._questions import attractors, edge, lyapunov, orbits, settle, simulate
@@ -68,9 +64,8 @@ from vibroimpact._response import Response, ResponseCurve
 from vibroimpact._sample import Sample, sample
 from vibroimpact._settle_many import settle_many
 from vibroimpact._simulate_many import simulate_many
-from vibroimpact._simulation import Simulation
+from vibroimpact._simulation import Simulation, Waveform
 from vibroimpact._store import Ran, Status, Verified, open, resume, run, status, verify
-from vibroimpact._waveform import Waveform
 
 if TYPE_CHECKING:
     from vibroimpact._accessor import VibroAccessor

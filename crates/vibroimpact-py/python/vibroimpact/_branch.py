@@ -1,4 +1,4 @@
-"""Branches of periodic orbits in one number of the system."""
+"""Branches of periodic orbits in one number of the system, and curves of their events in two."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact import _core
-from vibroimpact._events import Events
-from vibroimpact._measured import complex_of
-from vibroimpact._result import Answer, Floats, Made, View, column, field
+from vibroimpact._events import Events, complex_of
+from vibroimpact._oscillator import Oscillator
+from vibroimpact._region import pair, pairs, ranges
+from vibroimpact._result import Answer, Floats, Made, View, column, field, parts
 
 
 def _orbit(found: Mapping[str, Any] | None) -> tuple[int, int] | None:
@@ -176,3 +177,50 @@ class Branch(_Followed, schema="branch BranchObject PointObject"):
     def to_dict(self) -> dict[str, Any]:
         """The object that the command prints with --json; of a branch that begins on another one, its part of it."""
         return copy.deepcopy(self._of if self.number == 0 else self._one)
+
+
+class CurveEvent(View, schema="curve CurveEventObject"):
+    """A point of codimension two on a curve, or an end of the curve."""
+
+    kind: str
+    values: list[float]
+    point: int
+    stop: str | None
+
+    def __repr__(self) -> str:
+        return f"<CurveEvent {self.kind} at {self.values[0]:.9g}, {self.values[1]:.9g}>"
+
+
+class Curve(_Followed, schema="curve PointObject"):
+    """A curve of an event of an orbit, from one end to the other.
+
+    Attributes
+    ----------
+    ranges : ((float, float), (float, float))
+        The ranges of both numbers.
+    values : ndarray, shape (points, 2)
+        Values of the two numbers.
+    cycles : list of Events
+        The events at each point; on a grazing curve of an oscillator including the impact of speed zero.
+    """
+
+    label: str
+    kind: str
+    of: list[str] | None
+    found_at: list[float]
+    through: Made[tuple[int, int]] = field(lambda of: (of["event"], of["point"]))
+    parameters: Made[tuple[str, str]] = field(pair)
+    ranges = field(lambda task: ranges(task["vary"], task["and"]), "plan.task.curve")
+    admissible, residual = column(np.bool_), column(np.float64)
+    values: Made[Floats] = Made(lambda of: pairs([at["values"] for at in of._rows]))
+    events = parts(CurveEvent)
+
+    def __repr__(self) -> str:
+        p, q = self.parameters
+        return f"<Curve of {self.kind} of {self.label} over {p} and {q}, {len(self)} points, {len(self.events)} events>"
+
+    def _table(self) -> dict[str, Any]:
+        """One row for each point."""
+        p, q = self.parameters
+        columns = {p: self.values[:, 0], q: self.values[:, 1], "admissible": self.admissible}
+        return columns if isinstance(self.system, Oscillator) else {**columns, "residual": self.residual}

@@ -1,22 +1,29 @@
 """The questions in which numbers of the system vary, as those of `_questions.py`."""
 
-from collections.abc import Sequence
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, SupportsIndex
+
+from numpy.typing import ArrayLike
 
 from vibroimpact import _core
-from vibroimpact._arguments import beside, plane, sweep
-from vibroimpact._branch import Branch
+from vibroimpact._arguments import Axis, Interval, Progress, beside, plane, sweep
+from vibroimpact._branch import Branch, Curve
 from vibroimpact._core import QuestionError
-from vibroimpact._curve import Curve
 from vibroimpact._margins import Margins
 from vibroimpact._oscillator import Oscillator
-from vibroimpact._question import START, STATE, question
+from vibroimpact._question import ask, document
 from vibroimpact._region import Region
 from vibroimpact._response import Response
-from vibroimpact._system import numbered
+from vibroimpact._system import Start, System, numbered
 
 
-@question(Branch, "branch", STATE, "branches")
-def branch(system, vary, to, *, label=None, also=None, orbit=None, follow=0, points=5000):
+def branch(
+    system: System, vary: str, to: float | tuple[float, float], *, label: str | None = None, also: Mapping[str, float] | None = None,
+    orbit: SupportsIndex | None = None, follow: SupportsIndex = 0, points: SupportsIndex = 5000, q: ArrayLike | None = None,
+    qdot: ArrayLike | None = None, phase: float | None = None, progress: Progress = None,
+) -> Branch:
     """Follow a periodic orbit, stable or not, in one number and through its events.
 
     The orbit is searched at `system` and followed by pseudo-arclength continuation to the value `to`. Events are located to
@@ -46,14 +53,18 @@ def branch(system, vary, to, *, label=None, also=None, orbit=None, follow=0, poi
     >>> [(of.kind, of.stop) for of in vi.Machine.named("two-mass-hammer").branch("frequency", 1.05).events]
     [('grazing', 'anvil'), ('fold', None), ('end of range', None)]
     """
-    back, to = map(float, to) if isinstance(to, Sequence) else (None, float(to))
+    back, end = map(float, to) if isinstance(to, Sequence) else (None, float(to))
     second = beside(also)
     line = second and {numbered(system): second[0], "to": float(second[1])}
-    return {"label": label, "orbit": orbit, "vary": vary, "to": to, "back": back, "also": line, "follow": follow, "points": points}
+    task = {"label": label, "orbit": orbit, "vary": vary, "to": end, "back": back, "also": line, "follow": follow, "points": points}
+    return ask(Branch, Start(system, q=q, qdot=qdot, phase=phase), "branch", task, "branches", progress)
 
 
-@question(Curve, "curve", STATE, "curves")
-def curve(system, kind, over, *, label=None, orbit=None, event=None, points=None):
+def curve(
+    system: System, kind: str, over: Mapping[str, Interval], *, label: str | None = None, orbit: SupportsIndex | None = None,
+    event: SupportsIndex | None = None, points: SupportsIndex | None = None, q: ArrayLike | None = None,
+    qdot: ArrayLike | None = None, phase: float | None = None, progress: Progress = None,
+) -> Curve:
     """Follow an event of an orbit in a plane of two numbers.
 
     The orbit is searched at `system` and followed in the first number to both ends of its range, as long as it keeps its
@@ -84,11 +95,14 @@ def curve(system, kind, over, *, label=None, orbit=None, event=None, points=None
     ('grazing', ['end of box', 'end of box'])
     """
     vary, other = ({numbered(system): path, "from": first, "to": last} for path, first, last in plane(over))
-    return {"label": label, "kind": kind, "vary": vary, "and": other, "orbit": orbit, "event": event, "points": points}
+    task = {"label": label, "kind": kind, "vary": vary, "and": other, "orbit": orbit, "event": event, "points": points}
+    return ask(Curve, Start(system, q=q, qdot=qdot, phase=phase), "curve", task, "curves", progress)
 
 
-@question(Region, "region", (), "regions", threads=True, total=lambda system, task: 2)
-def region(system, label, over, *, grid=24):
+def region(
+    system: System, label: str, over: Mapping[str, Interval], *, grid: SupportsIndex = 24, threads: SupportsIndex = 0,
+    progress: Progress = None,
+) -> Region:
     """Find the regions of a plane of two parameters in which the motion m/n exists and is stable, as closed polygons.
 
     Orbits are searched on a grid. From each orbit the boundary of its part of the region is followed along the curves of
@@ -113,16 +127,19 @@ def region(system, label, over, *, grid=24):
     True
     """
     across, up = ({numbered(system): name, "from": low, "to": high} for name, low, high in plane(over))
-    return {"label": label, "across": across, "up": up, "grid": grid}
+    task = {"label": label, "across": across, "up": up, "grid": grid}
+    return ask(Region, Start(system), "region", task, "regions", progress, lambda fields: 2, threads)
 
 
-def _motions(system, task):
-    over = task["over"]
+def _motions(fields: Mapping[str, Any]) -> int:
+    over = fields["over"]
     return 2 * len(_core.span_values(over) if isinstance(over, str) else over)
 
 
-@question(Response, "response", (), "motions", total=_motions)
-def response(system, vary, over, *, quantity=None, impacts=None):
+def response(
+    system: System, vary: str, over: Axis, *, quantity: str | None = None, impacts: SupportsIndex | None = None,
+    progress: Progress = None,
+) -> Response:
     """Compute the response over a number, such as the frequency.
 
     A sweep with rising values and one with falling values settle the motion at each value from the state of the motion at
@@ -147,11 +164,15 @@ def response(system, vary, over, *, quantity=None, impacts=None):
     >>> vi.Machine.named("two-mass-hammer").response("frequency", "1.1:1.3:3")
     <Response of q.frame.displacement_amplitude over frequency: 3 values, 1 branch>
     """
-    return {"vary": vary, "over": sweep(over), "quantity": quantity and quantity.replace("-", "_"), "impacts": impacts}
+    task = {"vary": vary, "over": sweep(over), "quantity": quantity and quantity.replace("-", "_"), "impacts": impacts}
+    return ask(Response, Start(system), "response", task, "motions", progress, _motions)
 
 
-@question(Margins, "margins", START, "margins")
-def margins(system, *, label=None, vary=None, scale=None, within=2.0, lines=None):
+def margins(
+    system: System, *, label: str | None = None, vary: Sequence[str] | None = None, scale: Mapping[str, float] | None = None,
+    within: float = 2.0, lines: SupportsIndex | None = None, x: float | None = None, v: float | None = None,
+    q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None, progress: Progress = None,
+) -> Margins:
     """Find how far a periodic motion is from the events that end or change it.
 
     The motion is followed in each number alone, up and down, to the nearest event: a fold, a flip, a grazing impact, the end of a
@@ -182,7 +203,7 @@ def margins(system, *, label=None, vary=None, scale=None, within=2.0, lines=None
     """
     if isinstance(vary, str):
         raise TypeError(f'vary = {vary!r} is not a list of numbers, such as ["gap"]')
-    scales, varied = dict(scale or {}), list(vary or [])
+    scales, varied = dict(scale or {}), list[Any](vary or [])
     if isinstance(system, Oscillator):
         if vary is None and scales:
             varied = _core.varied_parameters(system._file)
@@ -192,4 +213,9 @@ def margins(system, *, label=None, vary=None, scale=None, within=2.0, lines=None
         varied = [{"parameter": name} | ({"scale": scales[name]} if name in scales else {}) for name in varied]
     elif scales or lines is not None:
         raise QuestionError("scale and lines belong to the box, which is not looked for in numbers of a machine")
-    return {"label": label, "vary": varied, "within": float(within), "lines": lines}
+    place = Start(system, x, v, q, qdot, phase)
+    task = place.within({"label": label, "vary": varied, "within": float(within), "lines": lines})
+    return ask(Margins, place, "margins", task, "margins", progress)
+
+
+document(branch=[branch], curve=[curve], region=[region], response=[response], margins=[margins])

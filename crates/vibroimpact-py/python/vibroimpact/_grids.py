@@ -1,15 +1,37 @@
 """The questions over grids, whose answers are Datasets, and the plans of grids, as the questions of `_questions.py`."""
 
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from os import PathLike
+from typing import TYPE_CHECKING, Any, SupportsIndex
+
 import numpy as np
-from vibroimpact._arguments import SEED, STARTS, axes, beside, interval, names, sweep, whole
+from numpy.typing import ArrayLike
+
+from vibroimpact._arguments import SEED, STARTS, Axis, Interval, Progress, axes, beside, interval, names, sweep, whole
 from vibroimpact._core import QuestionError
 from vibroimpact._oscillator import Oscillator
-from vibroimpact._question import grid, known, plan_of
-from vibroimpact._system import numbered
+from vibroimpact._plan import Plan, made
+from vibroimpact._question import document, given_fields, known
+from vibroimpact._store import computed
+from vibroimpact._system import Start, System, numbered
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from distributed import Client
 
 
-@grid("basin")
-def basin(system, over=None, *, x=None, v=None, phase=None, q=None, qdot=None, refine=None, impacts=None, fields=()):
+def _plan(place: Start, task: str, fields: Mapping[str, Any], tile: SupportsIndex | None) -> Plan:
+    return made(place.system, task, given_fields(task, place.system, fields), tile, place)
+
+
+def basin(
+    system: System, over: Mapping[str, Axis] | None = None, *, x: Axis | float | None = None, v: Axis | float | None = None,
+    phase: Axis | float | None = None, q: ArrayLike | None = None, qdot: ArrayLike | None = None, refine: SupportsIndex | None = None,
+    impacts: SupportsIndex | None = None, fields: Sequence[str] = (), store: str | PathLike[str] | None = None,
+    client: Client | None = None, tile: SupportsIndex | None = None, threads: SupportsIndex = 0, progress: Progress = None,
+) -> xr.Dataset:
     """Find the motion to which each start leads.
 
     Parameters
@@ -39,15 +61,30 @@ def basin(system, over=None, *, x=None, v=None, phase=None, q=None, qdot=None, r
     >>> dict(ds.sizes)["x"], sorted(set(ds.vibro.labels().values.ravel().tolist()))
     (40, ['1/1', '2/1'])
     """
-    of_start = {"x": x, "v": v, "phase": phase}
+    plan = plan_basin(
+        system, over, x=x, v=v, phase=phase, q=q, qdot=qdot, refine=refine, impacts=impacts, fields=fields, tile=tile
+    )
+    return computed(plan, store, client, threads, progress)
+
+
+def plan_basin(
+    system: System, over: Mapping[str, Axis] | None = None, *, x: Axis | float | None = None, v: Axis | float | None = None,
+    phase: Axis | float | None = None, q: ArrayLike | None = None, qdot: ArrayLike | None = None, refine: SupportsIndex | None = None,
+    impacts: SupportsIndex | None = None, fields: Sequence[str] = (), tile: SupportsIndex | None = None,
+) -> Plan:
+    of_start: dict[str, Any] = {"x": x, "v": v, "phase": phase}
     varied = {name: of for name, of in of_start.items() if not (of is None or isinstance(of, (int, float, np.number)))}
-    start = {name: None if of is None else float(of) for name, of in of_start.items() if name not in varied} | {"q": q, "qdot": qdot}
+    start = {name: None if of is None else float(of) for name, of in of_start.items() if name not in varied}
+    place = Start(system, **start, q=q, qdot=qdot)
     task = {"axes": axes({**varied, **(over or {})}), "refine": refine, "impacts": impacts, "fields": names(fields)}
-    return task, start
+    return _plan(place, "basin", place.within(task), tile)
 
 
-@grid("map")
-def region_map(system, over, *, starts=8, seed=1, refine=None, impacts=None, fields=()):
+def region_map(
+    system: System, over: Mapping[str, Axis], *, starts: SupportsIndex = 8, seed: SupportsIndex = 1, refine: SupportsIndex | None = None,
+    impacts: SupportsIndex | None = None, fields: Sequence[str] = (), store: str | PathLike[str] | None = None,
+    client: Client | None = None, tile: SupportsIndex | None = None, threads: SupportsIndex = 0, progress: Progress = None,
+) -> xr.Dataset:
     """Find the motions at each point of a plane of parameters.
 
     Parameters
@@ -71,14 +108,24 @@ def region_map(system, over, *, starts=8, seed=1, refine=None, impacts=None, fie
     >>> ds.vibro.labels().sel(inverse_beta=1.3, gap=0.75, motion=0).item()
     '2/1'
     """
+    plan = plan_map(system, over, starts=starts, seed=seed, refine=refine, impacts=impacts, fields=fields, tile=tile)
+    return computed(plan, store, client, threads, progress)
+
+
+def plan_map(
+    system: System, over: Mapping[str, Axis], *, starts: SupportsIndex = 8, seed: SupportsIndex = 1, refine: SupportsIndex | None = None,
+    impacts: SupportsIndex | None = None, fields: Sequence[str] = (), tile: SupportsIndex | None = None,
+) -> Plan:
     task = {"axes": axes(over), "starts": starts, "seed": seed, "refine": refine, "impacts": impacts, "fields": names(fields)}
-    return task, {}
+    return _plan(Start(system), "map", task, tile)
 
 
-@grid("diagram")
 def orbit_diagram(
-    system, vary, over, *, also=None, show=None, direction="both", starts=None, seed=None, transient=500, keep=64
-):
+    system: System, vary: str, over: Axis, *, also: Mapping[str, Interval] | None = None, show: str | None = None,
+    direction: str = "both", starts: SupportsIndex | None = None, seed: SupportsIndex | None = None, transient: SupportsIndex = 500,
+    keep: SupportsIndex = 64, store: str | PathLike[str] | None = None, client: Client | None = None,
+    tile: SupportsIndex | None = None, threads: SupportsIndex = 0, progress: Progress = None,
+) -> xr.Dataset:
     """Compute the motion after its transient at each value of a parameter, or along a line through two parameters.
 
     A sweep carries the state: the last state at one value is the start at the next value. Sweeps in both directions show
@@ -116,10 +163,21 @@ def orbit_diagram(
     >>> ds["velocity"].sel(sweep=1, gap=0.75).dropna("point").size
     2
     """
+    plan = plan_diagram(
+        system, vary, over, also=also, show=show, direction=direction, starts=starts, seed=seed, transient=transient, keep=keep, tile=tile
+    )
+    return computed(plan, store, client, threads, progress)
+
+
+def plan_diagram(
+    system: System, vary: str, over: Axis, *, also: Mapping[str, Interval] | None = None, show: str | None = None,
+    direction: str = "both", starts: SupportsIndex | None = None, seed: SupportsIndex | None = None, transient: SupportsIndex = 500,
+    keep: SupportsIndex = 64, tile: SupportsIndex | None = None,
+) -> Plan:
     known("direction", direction, ("up", "down", "both", "scatter"))
     if isinstance(system, Oscillator):
         known("show", show, (None, "velocity", "strobe"))
-    way = direction
+    way: str | dict[str, Any] = direction
     if direction == "scatter":
         count, number = whole("starts", 8 if starts is None else starts, STARTS), whole("seed", 1 if seed is None else seed, SEED)
         way = {"scatter": {"starts": count, "seed": number}}
@@ -129,27 +187,32 @@ def orbit_diagram(
     line = second and dict(zip((numbered(system), "from", "to"), (second[0], *interval(second[1]))))
     show = show or ("velocity" if isinstance(system, Oscillator) else "speed")
     task = {"vary": vary, "over": sweep(over), "also": line, "show": show, "direction": way, "transient": transient, "keep": keep}
-    return task, {}
+    return _plan(Start(system), "diagram", task, tile)
 
 
-#: The plans of grids.
-plan_map, plan_basin, plan_diagram = region_map.plan, basin.plan, orbit_diagram.plan
-
-
-@plan_of("lyapunov")
 def plan_lyapunov(
-    system, over, *, x=None, v=None, q=None, qdot=None, phase=None, impacts=None, transient=1000
-):
+    system: System, over: Mapping[str, Axis], *, x: float | None = None, v: float | None = None, q: ArrayLike | None = None,
+    qdot: ArrayLike | None = None, phase: float | None = None, impacts: SupportsIndex | None = None, transient: SupportsIndex = 1000,
+    tile: SupportsIndex | None = None,
+) -> Plan:
     """A plan for all Lyapunov exponents over parameters and coordinates of the start.
 
     For a machine it is over paths of numbers, "q.COORDINATE", "qdot.COORDINATE" and "phase". They are measured over
     100 000 impacts of an oscillator and 20 000 events of a machine, if nothing else is given.
     """
-    start = {"x": x, "v": v, "q": q, "qdot": qdot, "phase": phase}
-    return {"axes": axes(over), "impacts": impacts, "transient": transient}, start
+    place = Start(system, x, v, q, qdot, phase)
+    return _plan(place, "lyapunov", place.within({"axes": axes(over), "impacts": impacts, "transient": transient}), tile)
 
 
-@plan_of("attractors")
-def plan_attractors(system, starts, *, seed=1, impacts=None):
+def plan_attractors(
+    system: System, starts: SupportsIndex, *, seed: SupportsIndex = 1, impacts: SupportsIndex | None = None,
+    tile: SupportsIndex | None = None,
+) -> Plan:
     """A plan for the motion to which each of many scattered starts leads."""
-    return {"starts": starts, "seed": seed, "impacts": impacts}, {}
+    return _plan(Start(system), "attractors", {"starts": starts, "seed": seed, "impacts": impacts}, tile)
+
+
+document(
+    basin=[basin, plan_basin], map=[region_map, plan_map], diagram=[orbit_diagram, plan_diagram], lyapunov=[plan_lyapunov],
+    attractors=[plan_attractors]
+)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact import _core
-from vibroimpact._measured import all_measured, maybe_measured
+from vibroimpact._events import all_measured, maybe_measured
 from vibroimpact._motion import Motion
 from vibroimpact._oscillator import Oscillator
 from vibroimpact._paint import named

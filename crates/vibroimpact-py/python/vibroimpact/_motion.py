@@ -6,18 +6,14 @@ import copy
 import json
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from vibroimpact._core import QuestionError
-from vibroimpact._events import Events
-from vibroimpact._measured import all_measured, complex_of, maybe_measured
+from vibroimpact._events import Events, all_measured, complex_of, maybe_measured
 from vibroimpact._oscillator import Oscillator
 from vibroimpact._paint import named
 from vibroimpact._result import Answer, Made, View, field
-from vibroimpact._waveform import Waveform, waveform
-
-if TYPE_CHECKING:
-    from vibroimpact._simulation import Simulation
+from vibroimpact._simulation import Simulation, Waveform, waveform
 
 #: Minimum number of forcing periods, and of cycles without forcing, in a figure of a periodic motion.
 _SHOWN, _CYCLES = 6, 3

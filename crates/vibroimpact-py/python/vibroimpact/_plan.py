@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from vibroimpact import _core
 from vibroimpact._arguments import BLOCKS, BUDGET, SHARD, TILE, Budget, maybe, names, seconds, threads_of, whole
@@ -200,7 +200,7 @@ class Plan:
         return made(all_.system, "basin", task, tile, Start(all_.system))
 
 
-def made(system: System, task: str, fields: Mapping[str, Any], tile: int | None, start: Start) -> Plan:
+def made(system: System, task: str, fields: Mapping[str, Any], tile: SupportsIndex | None, start: Start) -> Plan:
     """The plan of a task with these fields, of which None are absent."""
     asked = json.dumps({task: {name: of for name, of in fields.items() if of is not None}})
     found = _core.plan_of(system._file, start.of_machine, asked, maybe("tile", tile, TILE))

@@ -1,26 +1,33 @@
 """The questions about motions of one system, each a function of the package and a method of systems; the other questions are in
-`_continuation.py` and `_grids.py`. Their arguments are the fields of their tasks in plans: `crates/vibroimpact-py/generate.py` writes
-their types in `_questions.pyi` from the schema of plans.
-
-A question returns the fields of its task. What all questions have in common is in `_question.py`: the start, progress, and whole numbers.
+`_continuation.py` and `_grids.py`. Their arguments are the fields of their tasks in plans.
 """
 
-from vibroimpact._attractors import Attractors
-from vibroimpact._edge import Edge
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, SupportsIndex
+
+from numpy.typing import ArrayLike
+
+from vibroimpact._arguments import Progress
 from vibroimpact._lyapunov import Lyapunov
 from vibroimpact._motion import Settled
-from vibroimpact._orbits import Orbits
+from vibroimpact._motions import Attractors, Edge, Orbits
 from vibroimpact._oscillator import Oscillator
-from vibroimpact._question import START, question
+from vibroimpact._question import ask, document
 from vibroimpact._simulation import Simulation
+from vibroimpact._system import Start, System
 
 
-def _events(system, task):
-    return task.get("impacts") or (1 if {"periods", "time"} & task.keys() else 100)
+def _events(fields: Mapping[str, Any]) -> int:
+    return fields.get("impacts") or (1 if {"periods", "time"} & fields.keys() else 100)
 
 
-@question(Simulation, "simulate", START, "events", total=_events)
-def simulate(system, *, impacts=None, periods=None, time=None):
+def simulate(
+    system: System, *, impacts: SupportsIndex | None = None, periods: float | None = None, time: float | None = None,
+    x: float | None = None, v: float | None = None, q: ArrayLike | None = None, qdot: ArrayLike | None = None,
+    phase: float | None = None, progress: Progress = None,
+) -> Simulation:
     """Follow a motion event by event: impacts, grazing contacts, sticking and release, contact and slip.
 
     Examples
@@ -39,11 +46,15 @@ def simulate(system, *, impacts=None, periods=None, time=None):
     >>> float(wave.force[:, 0].max().round())          # 9950.37 N in closed form
     9950.0
     """
-    return {"impacts": impacts, "periods": periods, "time": time}
+    place = Start(system, x, v, q, qdot, phase)
+    task = place.within({"impacts": impacts, "periods": periods, "time": time})
+    return ask(Simulation, place, "simulate", task, "events", progress, _events)
 
 
-@question(Settled, "settle", START, "motions")
-def settle(system, *, impacts=None):
+def settle(
+    system: System, *, impacts: SupportsIndex | None = None, x: float | None = None, v: float | None = None,
+    q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None, progress: Progress = None,
+) -> Settled:
     """Follow the motion from a start until it has settled, and confirm the result: a cycle, chaos, no further impact, or rest on
     a stop.
 
@@ -57,11 +68,14 @@ def settle(system, *, impacts=None):
     >>> found, found.counts, len(found.multipliers)
     (<Settled 1/1, stable>, {'anvil': 1}, 4)
     """
-    return {"impacts": impacts}
+    place = Start(system, x, v, q, qdot, phase)
+    return ask(Settled, place, "settle", place.within({"impacts": impacts}), "motions", progress)
 
 
-@question(Attractors, "attractors", (), "starts", threads=True, total=lambda system, task: task["starts"])
-def attractors(system, starts=200, *, seed=1, impacts=None):
+def attractors(
+    system: System, starts: SupportsIndex = 200, *, seed: SupportsIndex = 1, impacts: SupportsIndex | None = None,
+    threads: SupportsIndex = 0, progress: Progress = None,
+) -> Attractors:
     """Find the steady motions to which many scattered starts lead, and their shares of the starts.
 
     The starts are spread evenly over a box of positions, velocities and phases that contains the motion. They are the
@@ -75,11 +89,11 @@ def attractors(system, starts=200, *, seed=1, impacts=None):
     >>> vi.Machine.named("two-mass-hammer").attractors(20)
     <Attractors of 20 starts: 1/1, stable, 100 %>
     """
-    return {"starts": starts, "seed": seed, "impacts": impacts}
+    task = {"starts": starts, "seed": seed, "impacts": impacts}
+    return ask(Attractors, Start(system), "attractors", task, "starts", progress, lambda fields: int(fields["starts"]), threads)
 
 
-@question(Orbits, "orbit", (), "searches")
-def orbits(system, label):
+def orbits(system: System, label: str, *, progress: Progress = None) -> Orbits:
     """Find the periodic orbits with m closings of stops in n forcing periods, stable or not. The fastest one comes last.
 
     Orbits are searched by Newton's method from many seeds; orbits 1/n of an oscillator are also computed in closed form. An orbit
@@ -102,11 +116,14 @@ def orbits(system, label):
     >>> vi.Machine.named("two-mass-hammer").orbits("1/1")[-1].stable
     True
     """
-    return {"label": label}
+    return ask(Orbits, Start(system), "orbit", {"label": label}, "searches", progress)
 
 
-@question(Edge, "edge", START, "searches")
-def edge(system, other, *, laps=None, impacts=None):
+def edge(
+    system: System, other: Mapping[str, float], *, laps: SupportsIndex | None = None, impacts: SupportsIndex | None = None,
+    x: float | None = None, v: float | None = None, q: ArrayLike | None = None, qdot: ArrayLike | None = None,
+    phase: float | None = None, progress: Progress = None,
+) -> Edge:
     """Find the border between the starts of two motions, follow the motion on it, and find the saddle to which that leads.
 
     The way from the start to another one is halved until the border is known to rounding. Two states close to each other, one on
@@ -129,17 +146,15 @@ def edge(system, other, *, laps=None, impacts=None):
     <Edge of 2/1 and 1/1, saddle 2/1>
     """
     places = [{"coordinate": name, "value": float(value)} for name, value in dict(other).items()]
-    return {"other": places, "laps": laps, "impacts": impacts}
+    place = Start(system, x, v, q, qdot, phase)
+    return ask(Edge, place, "edge", place.within({"other": places, "laps": laps, "impacts": impacts}), "searches", progress)
 
 
-def _impacts(system, task):
-    before, points = task.get("transient", 1000), task.get("points")
-    measured = task.get("impacts", 100_000 if isinstance(system, Oscillator) else 20_000)
-    return before + measured + (0 if points is None else before + points)
-
-
-@question(Lyapunov, "lyapunov", START, "impacts", total=_impacts)
-def lyapunov(system, *, impacts=None, transient=None, points=None):
+def lyapunov(
+    system: System, *, impacts: SupportsIndex | None = None, transient: SupportsIndex | None = None,
+    points: SupportsIndex | None = None, x: float | None = None, v: float | None = None, q: ArrayLike | None = None,
+    qdot: ArrayLike | None = None, phase: float | None = None, progress: Progress = None,
+) -> Lyapunov:
     """Measure the Lyapunov exponents of a motion, with error bars, and the dimension of its attractor.
 
     Examples
@@ -153,4 +168,15 @@ def lyapunov(system, *, impacts=None, transient=None, points=None):
     >>> len(vi.Machine.named("two-mass-hammer").lyapunov(impacts=2000).exponents)
     4
     """
-    return {"impacts": impacts, "transient": transient, "points": points}
+    place = Start(system, x, v, q, qdot, phase)
+
+    def total(fields: Mapping[str, Any]) -> int:
+        before, shown = fields.get("transient", 1000), fields.get("points")
+        measured = fields.get("impacts", 100_000 if isinstance(system, Oscillator) else 20_000)
+        return int(before + measured + (0 if shown is None else before + shown))
+
+    task = place.within({"impacts": impacts, "transient": transient, "points": points})
+    return ask(Lyapunov, place, "lyapunov", task, "impacts", progress, total)
+
+
+document(simulate=[simulate], settle=[settle], attractors=[attractors], orbit=[orbits], edge=[edge], lyapunov=[lyapunov])

@@ -12,12 +12,12 @@ from numpy.typing import ArrayLike
 
 from vibroimpact import _core
 from vibroimpact._arguments import BUDGET, Progress, maybe, names, numbers, threads_of, watched
-from vibroimpact._attractors import Settlement
 from vibroimpact._machine import Machine
+from vibroimpact._motions import Settlement
 from vibroimpact._oscillator import Oscillator
 from vibroimpact._point_datasets import dataset, in_shape, whole_numbers, with_whole_numbers
 from vibroimpact._points import Over, Points, points
-from vibroimpact._question import document
+from vibroimpact._question import POINTS, document
 from vibroimpact._sample import Sample
 from vibroimpact._stated import variable
 from vibroimpact._system import System
@@ -136,7 +136,8 @@ def settle_many(
     return _of_starts(system, (x, v, phase), threads, progress)
 
 
-document(settle_many, "basin")
+
+document(POINTS, basin=[settle_many])
 
 
 def _of_points(over: Over, options: tuple[int | None, list[str], bool], threads: int, progress: Progress) -> "xr.Dataset":

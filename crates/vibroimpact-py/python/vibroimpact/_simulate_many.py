@@ -15,7 +15,7 @@ from vibroimpact._core import QuestionError
 from vibroimpact._machine import Machine
 from vibroimpact._point_datasets import dataset
 from vibroimpact._points import Over, Points, points
-from vibroimpact._question import document, finite, given_fields
+from vibroimpact._question import POINTS, document, finite, given_fields
 from vibroimpact._stated import described
 from vibroimpact._system import State, System, names_of
 
@@ -120,7 +120,8 @@ def simulate_many(
         return _states(over_all, times, _core.states_of_points(of._file, over_all.columns, over_all.start, section, threads, tell))
 
 
-document(simulate_many, "simulate")
+
+document(POINTS, simulate=[simulate_many])
 
 
 def _place(system: System, position: float | Mapping[str, float]) -> tuple[str, float]:

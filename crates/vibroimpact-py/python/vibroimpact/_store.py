@@ -4,7 +4,7 @@ import os
 from dataclasses import dataclass
 from importlib.util import find_spec
 from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, SupportsIndex
 
 from vibroimpact import _core
 from vibroimpact._arguments import COUNT, SEED, Budget, Progress, part_of, seconds, threads_of, watched, whole
@@ -19,7 +19,7 @@ def computed(
     plan: Plan,
     store: str | PathLike[str] | None,
     client: "Client | None",
-    threads: int,
+    threads: SupportsIndex,
     progress: Progress,
 ) -> "xr.Dataset":
     """Compute the Dataset of a plan: in memory, or in a store by threads of this process or by the workers of a client."""

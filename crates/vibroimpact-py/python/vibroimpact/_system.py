@@ -45,6 +45,7 @@ class Start:
         qdot: ArrayLike | None = None,
         phase: float | None = None,
     ) -> None:
+        self.system = system
         self.of_machine: State | None = None
         self.of_oscillator: dict[str, float] = {}
         if isinstance(system, Oscillator):

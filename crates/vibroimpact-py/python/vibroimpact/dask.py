@@ -15,21 +15,23 @@ the scheduler. If a worker dies, its tiles are computed by others, and the store
 """
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from contextlib import closing
 from functools import lru_cache
+from itertools import islice
 from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 from uuid import uuid4
 
 from vibroimpact import _core
 from vibroimpact._arguments import AHEAD, Budget, COUNT, Progress, outside, seconds, watched, whole
 from vibroimpact._plan import Plan
-from vibroimpact._rolling import rolling
 from vibroimpact._store import Ran
 
 if TYPE_CHECKING:
     from distributed import Client
+
+T = TypeVar("T")
 
 
 @lru_cache(maxsize=4)
@@ -97,7 +99,7 @@ def run(
             done = begun["points"] - sum(points for _, points in todo)
             turn, before = uuid4().hex[:8], len(todo)
             tasks = ((f"vibroimpact-tile-{plan.hash}-{turn}-{tile}", (tile, points, place, plan.json)) for tile, points in todo)
-            with closing(rolling(client, _tile, tasks, in_flight, how)) as batches:
+            with closing(_rolling(client, _tile, tasks, in_flight, how)) as batches:
                 for batch in batches:
                     for points, new, was_damaged in batch:
                         computed, mended, done = computed + new, mended + was_damaged, done + points
@@ -118,3 +120,35 @@ def run(
     here.conclude()
     far = here.status()
     return Ran(computed, max(far["done"] - computed, 0), mended, far["tiles"] - far["done"])
+
+
+def _rolling(
+    client: "Client",
+    work: Callable[..., T],
+    tasks: Iterable[tuple[str, tuple[Any, ...]]],
+    in_flight: int,
+    how: Mapping[str, Any],
+) -> Generator[list[T], None, None]:
+    """The results of `work` for the arguments of each task, which has a key, in batches as they come.
+
+    At most `in_flight` tasks are with the scheduler; `how` are further arguments of `client.submit`. Tasks that are still there when
+    the iterator is closed are cancelled.
+    """
+    from distributed import as_completed
+
+    queue, running = iter(tasks), dict[str, Any]()
+
+    def submit(count: int) -> list[Any]:
+        new = {key: client.submit(work, *of, key=key, **how) for key, of in islice(queue, count)}
+        running.update(new)
+        return list(new.values())
+
+    ended = as_completed(submit(in_flight), with_results=True)
+    try:
+        for batch in ended.batches():
+            for task, _ in batch:
+                running.pop(task.key, None)
+            yield [result for _, result in batch]
+            ended.update(submit(in_flight - len(running)))
+    finally:
+        client.cancel(list(running.values()))
