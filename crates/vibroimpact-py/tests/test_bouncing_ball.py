@@ -180,7 +180,7 @@ def test_where_bouncing_begins_and_doubles_its_period(restitution: float, n: int
 
     def errors(beta: float) -> list[float]:
         found = []
-        for kind, expected, beyond in (("fold" if restitution > 0 else "stick", begins, 0.9), ("flip", doubles, 1.1)):
+        for kind, expected, beyond in (("fold" if restitution > 0 else "sticking begins", begins, 0.9), ("flip", doubles, 1.1)):
             branch = vi.branch(oscillator(beta, gamma, restitution), "gap", -1 / (expected * beyond), label=f"1/{n}")
             events = [event for event in branch.events if event.kind == kind]
             assert len(events) == 1, branch.events

@@ -268,8 +268,9 @@ mod tests {
         let plan = BranchPlan { label: Some("inf/1".into()), to: -0.2, ..plan().1 };
         let found = branches(&system, &plan, &Control::default()).unwrap();
         let [branch] = found.followed.as_slice() else { panic!("{} branches", found.followed.len()) };
-        let last = branch.points.last().unwrap();
-        assert!(matches!(last.event, Some(BranchEvent::EndOfRest { .. })) && last.value < -0.36);
+        let [.., over, last] = &branch.points[..] else { panic!("{:?}", branch.points) };
+        assert!(matches!(over.event, Some(BranchEvent::Sticking { begins: false, .. })) && over.value < -0.36);
+        assert_eq!((last.event, last.value), (Some(BranchEvent::ImpactLimit), over.value));
         assert!(branch.points.iter().all(|point| point.stable() && point.cycle.rests.len() == 1));
         // at gap 0 there is no such orbit
         let nothing = branches(&SystemPlan { gap: 0.0, ..system }, &plan, &Control::default()).unwrap_err().to_string();

@@ -3,7 +3,7 @@
 use crate::report::diagram::range;
 use crate::report::words::{stop_name, table};
 use std::fmt::Write;
-use vibroimpact::continuation::{BranchEvent, SolutionPoint};
+use vibroimpact::continuation::{BranchEvent, EventDetail, SolutionPoint};
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::Cycle;
 use vibroimpact::verdict::Stability;
@@ -218,14 +218,18 @@ fn of_oscillator(point: &SolutionPoint, event: BranchEvent) -> String {
             format!("{}{way}", said.join(", and "))
         }
         BranchEvent::SoftLanding { .. } => format!("it lands on the {name} without speed, phase {phase}"),
-        BranchEvent::EndOfRest { .. } => format!("the rest on the {name} is over as it begins, phase {phase}"),
         BranchEvent::RestForEver { .. } => format!("the force no longer pulls the mass off the {name}"),
-        BranchEvent::Chatter { .. } => {
+        BranchEvent::Sticking { begins: false, .. } => {
+            format!("the rest on the {name} is over as it begins, phase {phase}")
+        }
+        BranchEvent::Sticking { detail: Some(EventDetail { impact: Some(impact), .. }), .. } => {
+            format!("the mass stays on the {name} after impact {}, phase {phase}", impact + 1)
+        }
+        BranchEvent::Sticking { .. } => {
             let label = point.cycle.label;
             format!("impacts are added without end, towards a rest on the {name} at phase {phase}; beyond, {label}")
         }
         BranchEvent::LossOfContact { .. } => format!("the mass no longer reaches the {name}, phase {phase}"),
-        BranchEvent::Stick { impact } => format!("the mass stays on the stop after impact {}", impact + 1),
         BranchEvent::ImpactLimit => "more impacts than are followed".into(),
         _ => String::new(),
     }

@@ -194,8 +194,15 @@ fn a_cycle_that_rests() {
     let answer = json(line);
     let soft = events(&answer, "soft landing")[0];
     assert_eq!((&soft["before"], &soft["after"], &soft["impact"]), (&"inf/1".into(), &"inf/1".into(), &1.into()));
-    let end = answer["branches"][0]["events"].as_array().unwrap().last().unwrap();
-    assert_eq!((&end["kind"], &end["stop"], &end["ends"]), (&"end of rest".into(), &"upper".into(), &true.into()));
+    let [.., over, end] = &answer["branches"][0]["events"].as_array().unwrap()[..] else { panic!("{answer}") };
+    assert_eq!(
+        (&over["kind"], &over["stop"], &over["ends"]),
+        (&"sticking ends".into(), &"upper".into(), &false.into())
+    );
+    assert_eq!(
+        (&end["kind"], &end["parameter"], &end["ends"]),
+        (&"impact limit".into(), &over["parameter"], &true.into())
+    );
     for point in answer["branches"][0]["points"].as_array().unwrap() {
         let cycle = point["cycle"].as_array().unwrap();
         let of = |kind: &str| cycle.iter().find(|event| event["kind"] == kind).unwrap();
@@ -215,7 +222,7 @@ fn a_cycle_that_rests() {
     for sentence in [
         "branch 1: inf/1 (stable there), gap from 0.25 to 1",
         "it lands on the stop without speed",
-        "end of rest: the rest on the stop is over as it begins",
+        "the rest on the stop is over as it begins",
     ] {
         assert!(printed(line).contains(sentence), "{sentence}: {}", printed(line));
     }
@@ -235,7 +242,7 @@ fn a_cycle_that_rests() {
     // where its rest is over the branch goes on without one, to where the second impact is lost and back in the gap
     let found = json(zero)["branches"][0]["events"].clone();
     let kinds: Vec<&str> = found.as_array().unwrap().iter().filter_map(|event| event["kind"].as_str()).collect();
-    assert_eq!(kinds, ["grazing", "end of rest", "fold", "flip", "grazing", "end of range"]);
+    assert_eq!(kinds, ["grazing", "sticking ends", "fold", "flip", "grazing", "end of range"]);
 }
 
 /// Two identical stops: the symmetric 2/1 loses its symmetry to two mirror-image orbits, which --follow follows.
@@ -339,7 +346,7 @@ fn ever_more_impacts() {
     let other = json(rest)["branches"][0]["events"].as_array().unwrap().last().unwrap().clone();
     assert_eq!(
         (&end["kind"], &end["after"], &other["kind"]),
-        (&"chatter".into(), &"inf/1".into(), &"end of rest".into())
+        (&"sticking begins".into(), &"inf/1".into(), &"impact limit".into())
     );
     assert!((number(&end["parameter"]) - number(&other["parameter"])).abs() < 1e-12);
     let text = printed(line);

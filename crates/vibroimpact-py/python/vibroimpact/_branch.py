@@ -45,7 +45,7 @@ class BranchEvent(View, schema="branch BranchEventObject"):
     Attributes
     ----------
     kind : str
-        "fold", "flip", "torus", "branch point", "grazing", "loss of contact", "stick", "soft landing", "chatter", ..., or the reason
+        "fold", "flip", "torus", "branch point", "grazing", "loss of contact", "sticking begins", "soft landing", ..., or the reason
         why the branch ends: "end of range", "closed", "halving", "step limit", "impact limit", "no convergence".
     """
 

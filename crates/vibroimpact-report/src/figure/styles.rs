@@ -7,21 +7,19 @@ use vibroimpact_study::FollowedEvent;
 
 /// The marks of events along branches by name, and whether the mark is at velocity zero, because an impact appears or
 /// disappears there. Other events have no mark.
-pub const BRANCH_MARKS: [(&str, Shape, bool); 17] = [
+pub const BRANCH_MARKS: [(&str, Shape, bool); 15] = [
     ("fold", Shape::Square, false),
     ("flip", Shape::Diamond, false),
     ("branch point", Shape::Circle, false),
     ("grazing", Shape::TriangleUp, true),
     ("loss of contact", Shape::TriangleDown, true),
     ("soft landing", Shape::Plus, true),
-    ("end of rest", Shape::Cross, true),
     ("rest for ever", Shape::Cross, true),
-    ("chatter", Shape::Cross, true),
+    ("sticking begins", Shape::TriangleRight, false),
+    ("sticking ends", Shape::TriangleLeft, false),
     // of machines only
     ("torus", Shape::Plus, false),
     ("corner", Shape::Cross, false),
-    ("sticking begins", Shape::TriangleRight, false),
-    ("sticking ends", Shape::TriangleLeft, false),
     ("holding begins", Shape::Pentagon, false),
     ("holding ends", Shape::Bar, false),
     ("jump", Shape::Star, false),
@@ -125,13 +123,11 @@ mod tests {
             BranchEvent::Grazing { stop, also: None, appears: true, turns: false, detail },
             BranchEvent::LossOfContact { stop, detail },
             BranchEvent::SoftLanding { stop, detail },
-            BranchEvent::EndOfRest { stop, detail },
             BranchEvent::RestForEver { stop },
-            BranchEvent::Chatter { stop, detail },
+            BranchEvent::Sticking { stop, begins: true, detail },
+            BranchEvent::Sticking { stop, begins: false, detail },
             BranchEvent::Torus,
             BranchEvent::Corner { first: 0, second: 1 },
-            BranchEvent::Sticking { stop, begins: true },
-            BranchEvent::Sticking { stop, begins: false },
             BranchEvent::Holding { joint, begins: true },
             BranchEvent::Holding { joint, begins: false },
             BranchEvent::Jump,

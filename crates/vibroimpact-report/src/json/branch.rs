@@ -366,7 +366,6 @@ impl<'a> EventFields<'a> {
             _ => (None, None),
         };
         let (number, detail) = (|impact: usize| impact + 1, event.detail());
-        let alone = if let BranchEvent::Stick { impact } = event { Some(impact) } else { None };
         let touch = |place: usize| {
             let (impact, phase) = detail.and_then(|detail| detail.also).unzip();
             TouchObject { impact: impact.flatten().map(number), stop: name(place), phase }
@@ -378,7 +377,7 @@ impl<'a> EventFields<'a> {
             stop: event.place().map(name),
             appears,
             turns,
-            impact: detail.and_then(|detail| detail.impact).or(alone).map(number),
+            impact: detail.and_then(|detail| detail.impact).map(number),
             phase: detail.map(|detail| detail.phase),
             also: event.also().map(touch),
         }

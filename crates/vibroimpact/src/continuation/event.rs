@@ -42,13 +42,17 @@ pub enum BranchEvent {
         /// The other.
         second: usize,
     },
-    /// A rest on a stop begins or ends to be a part of the cycle of a machine. For a stop with a restitution above 0 the rest
-    /// follows a chatter that is complete exactly at the release here, to about 1e-11.
+    /// A rest on a stop begins or ends to be a part of the cycle, and takes no time here. With restitution 0 the mass stays on the
+    /// stop after an impact, or the force pulls it away at once. Otherwise the rest follows a chatter that is complete exactly at the
+    /// release here, of a machine to about 1e-11: on the other side the cycles have ever more impacts, which come closer to each
+    /// other by a fixed factor. A branch of an oscillator cannot follow these, and ends where such a rest ends.
     Sticking {
         /// The stop.
         stop: usize,
         /// Whether it begins.
         begins: bool,
+        /// Where in the cycle of an oscillator: the impact after which the mass stays, or the release.
+        detail: Option<EventDetail>,
     },
     /// A friction joint begins or ends to hold in the cycle.
     Holding {
@@ -77,11 +81,6 @@ pub enum BranchEvent {
         /// Where in the cycle of an oscillator.
         detail: Option<EventDetail>,
     },
-    /// Of an oscillator with restitution 0: beyond, the mass sticks after this impact. The branch goes on with that cycle.
-    Stick {
-        /// The index of the impact of this point's cycle.
-        impact: usize,
-    },
     /// On a branch of cycles of an oscillator that stick: all impacts before the mass sticks have speed zero. The mass reaches the
     /// stop without speed at the phase at which the force begins to press it there. Without damping, where a flight is
     /// symmetric in time, this occurs at single values of one parameter.
@@ -91,28 +90,10 @@ pub enum BranchEvent {
         /// The first of these impacts.
         detail: Option<EventDetail>,
     },
-    /// On a branch of cycles of an oscillator that stick: the time of sticking is zero, at the phase of the release. Beyond, the
-    /// mass leaves the stop before it sticks. With restitution 0 the force pulls it away at once, and the branch goes on with that
-    /// cycle. Otherwise the chatter is incomplete and the branch ends: cycles with ever more impacts end at the same value from the
-    /// other side.
-    EndOfRest {
-        /// The stop on which the mass sticks.
-        stop: usize,
-        /// The release.
-        detail: Option<EventDetail>,
-    },
     /// The cycle rests on a stop; beyond, no force pulls it off for ever.
     RestForEver {
         /// The stop.
         stop: usize,
-    },
-    /// Impacts of an oscillator appeared one after another, and their number is infinite here. The cycle of this point is the
-    /// limit: it sticks at the phase of the release. The branch goes on with cycles that stick.
-    Chatter {
-        /// The stop of the chatter.
-        stop: usize,
-        /// The release.
-        detail: Option<EventDetail>,
     },
     /// An inadmissible solution becomes admissible.
     BecomesPhysical,
@@ -171,11 +152,8 @@ impl BranchEvent {
             Self::Discontinuity => "discontinuity",
             Self::Change { .. } => "change",
             Self::LossOfContact { .. } => "loss of contact",
-            Self::Stick { .. } => "stick",
             Self::SoftLanding { .. } => "soft landing",
-            Self::EndOfRest { .. } => "end of rest",
             Self::RestForEver { .. } => "rest for ever",
-            Self::Chatter { .. } => "chatter",
             Self::BecomesPhysical => "becomes physical",
             Self::BecomesVirtual => "becomes virtual",
             Self::Closed => "closed",
@@ -194,9 +172,7 @@ impl BranchEvent {
             | Self::Sticking { stop, .. }
             | Self::LossOfContact { stop, .. }
             | Self::SoftLanding { stop, .. }
-            | Self::EndOfRest { stop, .. }
-            | Self::RestForEver { stop }
-            | Self::Chatter { stop, .. } => Some(stop),
+            | Self::RestForEver { stop } => Some(stop),
             Self::Corner { first, .. } => Some(first),
             Self::Holding { joint, .. } => Some(joint),
             Self::Change { place } => place,
@@ -220,9 +196,8 @@ impl BranchEvent {
         match *self {
             Self::Grazing { detail, .. }
             | Self::LossOfContact { detail, .. }
-            | Self::SoftLanding { detail, .. }
-            | Self::EndOfRest { detail, .. }
-            | Self::Chatter { detail, .. } => detail,
+            | Self::Sticking { detail, .. }
+            | Self::SoftLanding { detail, .. } => detail,
             _ => None,
         }
     }
@@ -244,17 +219,6 @@ impl BranchEvent {
     /// Whether the branch ends at this event.
     #[must_use]
     pub const fn ends(&self) -> bool {
-        self.ends_search()
-            || matches!(self, Self::Halving | Self::LossOfContact { .. } | Self::RestForEver { .. })
-            || matches!(self, Self::EndOfRest { .. }) && !self.changes_method()
-    }
-
-    /// Whether the branch of an oscillator goes on beyond with a cycle that is followed in another way, as one that sticks.
-    pub(crate) const fn changes_method(&self) -> bool {
-        match self {
-            Self::Stick { .. } | Self::Chatter { .. } => true,
-            Self::EndOfRest { detail: Some(detail), .. } => detail.labels.1.is_some(),
-            _ => false,
-        }
+        self.ends_search() || matches!(self, Self::Halving | Self::LossOfContact { .. } | Self::RestForEver { .. })
     }
 }

@@ -36,8 +36,10 @@ fn beside(points: &[SolutionPoint], k: usize) -> Option<(&SolutionPoint, &Soluti
     Some((before, after))
 }
 
-/// Checks every event of a branch; counts of grazing events, folds and flips.
+/// Checks every event of a branch of cycles that do not stick; counts of grazing events, folds and flips.
 fn check(points: &[SolutionPoint]) -> [u32; 3] {
+    let sticks = |point: &SolutionPoint| matches!(point.event, Some(BranchEvent::Sticking { .. }));
+    let points = &points[..points.iter().position(sticks).unwrap_or(points.len())];
     let mut counts = [0; 3];
     let h = 1e-6;
     for (k, point) in points.iter().enumerate() {

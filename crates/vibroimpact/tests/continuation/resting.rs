@@ -40,7 +40,7 @@ fn branch(
 
 /// Whether the rest of a cycle is over here, or another one begins.
 fn other(point: &SolutionPoint) -> bool {
-    matches!(point.event, Some(BranchEvent::EndOfRest { .. } | BranchEvent::Chatter { .. }))
+    matches!(point.event, Some(BranchEvent::Sticking { .. }))
 }
 
 fn same(a: &Cycle, b: &Cycle) -> bool {
@@ -70,7 +70,9 @@ fn a_chatter_that_only_just_completes() {
         ("inf/1", "stuck")
     );
     let up = branch(&at(-0.5), Side::Upper, Parameter::Gap, (-1.2, 0.5), Direction::Up);
-    let [(end, BranchEvent::EndOfRest { stop: 0, detail: Some(EventDetail { phase, .. }) })] = events(&up)[..] else {
+    let [(end, BranchEvent::Sticking { stop: 0, begins: false, detail: Some(EventDetail { phase, .. }) })] =
+        events(&up)[..]
+    else {
         panic!("{:?}", events(&up))
     };
     assert!((phase - (PI - end.asin())).abs() < 1e-14);
@@ -118,8 +120,11 @@ fn ever_more_impacts_tend_to_a_chatter() {
         // down to where the force holds the mass for ever
         assert!(beyond.iter().all(|point| point.cycle.label.to_string() == "inf/1"));
         assert_eq!(events(beyond), [(-1.0, BranchEvent::RestForEver { stop: 0 })]);
-        let Some(BranchEvent::Chatter { stop: 0, detail: Some(EventDetail { phase, labels: (before, _), .. }) }) =
-            last.event
+        let Some(BranchEvent::Sticking {
+            stop: 0,
+            begins: true,
+            detail: Some(EventDetail { phase, labels: (before, _), .. }),
+        }) = last.event
         else {
             panic!("{:?} at {}", last.event, last.value)
         };
@@ -158,7 +163,7 @@ fn restitution_zero_by_the_flight_itself() {
     // the flight from a release comes back after just a period where delta^2 (1 + beta^2 tan^2(pi/beta)) = 1
     let points = branch(&at(1.3, 0.3), Side::Upper, Parameter::InverseBeta, (0.4, 1.5), Direction::Down);
     let (end, event) = events(&points)[0];
-    assert!(matches!(event, BranchEvent::EndOfRest { .. }), "{event:?}");
+    assert!(matches!(event, BranchEvent::Sticking { begins: false, .. }), "{event:?}");
     let beta = 1.0 / end;
     let off = |beta: f64| 0.09 * (1.0 + (beta * (PI / beta).tan()).powi(2)) - 1.0;
     assert!(off(beta - 1e-12) * off(beta + 1e-12) < 0.0, "{end}");
@@ -179,7 +184,7 @@ fn restitution_zero_by_the_flight_itself() {
         (gap - f * release.sin()) * s.cos() - f * beta * release.cos() * s.sin() + f * (release + beta * s).sin() - gap
     };
     assert!(landing(value - 1e-11) * landing(value + 1e-11) < 0.0, "{value}");
-    assert!(matches!(last, BranchEvent::EndOfRest { .. }), "{last:?}");
+    assert!(matches!(last, BranchEvent::Sticking { begins: false, .. }), "{last:?}");
     for (gap, label) in [(value - 1e-4, "1/1"), (value + 1e-4, "2/1")] {
         assert_eq!(settled(&at(1.3, gap), Side::Upper), label);
     }
@@ -192,8 +197,10 @@ fn a_landing_without_speed() {
     let at = |gap: f64| Oscillator::from_inverse_beta(2.5, gap, 0.5).unwrap();
     let points = branch(&at(0.25), Side::Upper, Parameter::Gap, (-1.2, 1.2), Direction::Up);
     let found = events(&points);
-    let [(value, BranchEvent::SoftLanding { detail: Some(detail), .. }), (_, BranchEvent::EndOfRest { .. })] =
-        found[..]
+    let [
+        (value, BranchEvent::SoftLanding { detail: Some(detail), .. }),
+        (_, BranchEvent::Sticking { begins: false, .. }),
+    ] = found[..]
     else {
         panic!("{found:?}")
     };
@@ -223,10 +230,12 @@ fn impacts_on_the_way_accumulate() {
         |second: f64| Oscillator::from_inverse_beta(2.5, 0.25, 0.5).unwrap().with_second_stop(second, 0.5).unwrap();
     let range = (-0.1, 2.0);
     let near = branch(&at(0.25), Side::Upper, Parameter::SecondGap, range, Direction::Up);
-    let [(end, BranchEvent::EndOfRest { stop: 1, .. })] = events(&near)[..] else { panic!("{:?}", events(&near)) };
+    let [(end, BranchEvent::Sticking { stop: 1, begins: false, .. })] = events(&near)[..] else {
+        panic!("{:?}", events(&near))
+    };
     let far = branch(&at(0.6), Side::Upper, Parameter::SecondGap, range, Direction::Down);
     let found = events(&far);
-    let (limit, BranchEvent::Chatter { stop: 1, detail: Some(detail) }) = *found.last().unwrap() else {
+    let (limit, BranchEvent::Sticking { stop: 1, begins: true, detail: Some(detail) }) = *found.last().unwrap() else {
         panic!("{found:?}")
     };
     let before = detail.labels.0;

@@ -147,7 +147,8 @@ fn a_branch_goes_on_where_the_mass_sticks() {
         Branch::new(osc, begin, Parameter::Gap, 0.2..=2.0, direction, BranchOptions::default()).unwrap().collect()
     };
     let down = follow(&osc, begin, Direction::Down);
-    let sticks = |point: &SolutionPoint| point.event == Some(BranchEvent::Stick { impact: 0 });
+    let sticks =
+        |point: &SolutionPoint| matches!(point.event, Some(BranchEvent::Sticking { stop: 0, begins: true, .. }));
     let place = down.iter().position(sticks).unwrap();
     let (at, (before, beyond)) = (&down[place], down.split_at(place + 1));
     let theta = at.cycle.points[0].state.phase;
@@ -164,7 +165,8 @@ fn a_branch_goes_on_where_the_mass_sticks() {
     }
     let there = Parameter::Gap.set(&osc, 0.2).unwrap();
     let up = follow(&there, &last.cycle, Direction::Up);
-    let ends = |point: &SolutionPoint| matches!(point.event, Some(BranchEvent::EndOfRest { stop: 0, .. }));
+    let ends =
+        |point: &SolutionPoint| matches!(point.event, Some(BranchEvent::Sticking { stop: 0, begins: false, .. }));
     let place = up.iter().position(ends).unwrap();
     assert!((up[place].value - at.value).abs() < 1e-9, "{} {}", up[place].value, at.value);
     assert!(up[place + 1..].iter().all(|point| point.cycle.rests.is_empty() && point.physical));

@@ -370,7 +370,7 @@ fn f42z_bodies_beside_each_other_have_the_branch_of_one() {
     let (one, two) = (events_of(1), events_of(2));
     assert!(one.iter().any(|(event, _)| *event == BranchEvent::Flip));
     assert!(
-        matches!(one[0], (BranchEvent::Sticking { stop: 0, begins: false }, at) if (at - 1.209_992_208).abs() < 1e-8)
+        matches!(one[0], (BranchEvent::Sticking { stop: 0, begins: false, .. }, at) if (at - 1.209_992_208).abs() < 1e-8)
     );
     // where the impacts of a chatter have just become finitely many, the one that is left first is not always told
     let told = |all: &[(BranchEvent, f64)]| all.iter().filter(|(_, at)| *at > 1.2103).copied().collect::<Vec<_>>();
@@ -546,7 +546,7 @@ fn impacts_of_a_chatter_appear_at_folds() {
     let factor = l.powi(5) / (0.123 * 0.123);
     let limit = last + (last - before) * factor / (1.0 - factor);
     let [.., (begins, complete), (ends, _), (BranchEvent::EndOfRange, _)] = found[..] else { panic!("{found:?}") };
-    let sticking = |begins: bool| BranchEvent::Sticking { stop: 0, begins };
+    let sticking = |begins: bool| BranchEvent::Sticking { stop: 0, begins, detail: None };
     assert_eq!((begins, ends), (sticking(true), sticking(false)), "{found:?}");
     assert!((complete - limit).abs() < 0.02 * (last - before).abs(), "{complete} {limit}: {at:?}");
 }

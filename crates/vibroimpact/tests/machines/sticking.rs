@@ -50,7 +50,7 @@ fn a_ball_without_rebound() {
     for (from, direction, begins) in [(2.0, Direction::Up, false), (3.5, Direction::Down, true)] {
         let start = Start { q: vec![from + 0.1], qdot: vec![0.0], phase: 0.0, ..Start::default() };
         let point = first_event(make, (from, &start), ((0.5, 6.0), direction));
-        assert_eq!(point.event, Some(BranchEvent::Sticking { stop: 0, begins }), "{}", point.value);
+        assert_eq!(point.event, Some(BranchEvent::Sticking { stop: 0, begins, detail: None }), "{}", point.value);
         assert!((point.value - expected).abs() < 1e-12, "{} {expected}", point.value);
     }
 }

@@ -17,20 +17,11 @@ const SPAN: f64 = 0.05;
 /// Values of the same event differ by less.
 const CLOSE: f64 = 1e-9;
 
-/// The name of an event of a branch of the oscillator on that of the machine.
-fn name_of_machine(name: &str) -> &str {
-    match name {
-        "stick" | "chatter" => "sticking begins",
-        "end of rest" => "sticking ends",
-        name => name,
-    }
-}
-
 /// Whether the events are the same at the same gaps. Towards a complete chatter, impacts appear at ever smaller distances: how many of
 /// these the branches show differs, and what follows does not. Where the only impact is lost, that of the machine ends, and with
 /// damping that of the oscillator goes on without impacts.
 fn same(want: &[(&str, f64)], events: &[(&str, f64)]) -> bool {
-    let alike = |(a, b): &(&(&str, f64), &(&str, f64))| name_of_machine(a.0) == b.0 && (a.1 - b.1).abs() < CLOSE;
+    let alike = |(a, b): &(&(&str, f64), &(&str, f64))| a.0 == b.0 && (a.1 - b.1).abs() < CLOSE;
     let count = want.iter().zip(events).take_while(alike).count();
     let (want, events) = (&want[count..], &events[count..]);
     let limit = |of: &[(&str, f64)]| of.iter().position(|event| !["grazing", "fold"].contains(&event.0));
@@ -40,7 +31,7 @@ fn same(want: &[(&str, f64)], events: &[(&str, f64)]) -> bool {
             (first.1 - last.1).abs() < CLOSE
         }
         _ => match (limit(want), limit(events)) {
-            (Some(one), Some(other)) if (one, other) != (0, 0) && want[one].0 == "chatter" => {
+            (Some(one), Some(other)) if (one, other) != (0, 0) && want[one].0 == "sticking begins" => {
                 alike(&(&want[one], &events[other])) && same(&want[one + 1..], &events[other + 1..])
             }
             _ => false,
@@ -142,7 +133,7 @@ fn a_chatter_begins_and_ends_at_its_limit() {
     let once = settle(&oscillator, Start::at_rest(&oscillator), &SettleOptions::default());
     let Verdict::Periodic(cycle) = once.verdict else { panic!("{}", once.verdict.label()) };
     let branch = Branch::new(&oscillator, &cycle, Parameter::Gap, 0.95..=1.0, Direction::Down, options).unwrap();
-    let chatter = branch.into_iter().find(|point| matches!(point.event, Some(BranchEvent::Chatter { .. }))).unwrap();
+    let chatter = branch.into_iter().find(|point| matches!(point.event, Some(BranchEvent::Sticking { .. }))).unwrap();
     for (from, direction, begins, close) in [(1.0, Direction::Down, true, 1e-12), (0.951, Direction::Up, false, 1e-12)]
     {
         let machine = at(from).machine();
@@ -154,7 +145,7 @@ fn a_chatter_begins_and_ends_at_its_limit() {
             branch.filter_map(|point| point.event.map(|event| (event, point.value))).collect();
         let limit = |event: &(BranchEvent, f64)| matches!(event.0, BranchEvent::Sticking { .. });
         let place = events.iter().position(limit).unwrap();
-        assert_eq!(events[place].0, BranchEvent::Sticking { stop: 0, begins });
+        assert_eq!(events[place].0, BranchEvent::Sticking { stop: 0, begins, detail: None });
         assert!((events[place].1 - chatter.value).abs() < close, "{} {}", events[place].1, chatter.value);
         // on its side with the chatter there is only the end of the range
         let inside = if begins { &events[place + 1..] } else { &events[..place] };
@@ -200,7 +191,7 @@ fn a_curve_of_complete_chatters() {
         else {
             continue;
         };
-        let Some(limit) = branch.find(|point| matches!(point.event, Some(BranchEvent::Chatter { .. }))) else {
+        let Some(limit) = branch.find(|point| matches!(point.event, Some(BranchEvent::Sticking { .. }))) else {
             continue;
         };
         assert!((limit.value - gap).abs() < 1e-11, "{e}: {gap} {}", limit.value);

@@ -30,10 +30,7 @@ fn same_cycle(own: &orbit::machine::Cycle, cycle: &Cycle) -> bool {
 
 /// The events of a branch of the oscillator that the machine's has too.
 fn name(event: BranchEvent) -> Option<&'static str> {
-    let only = matches!(
-        event,
-        BranchEvent::Stick { .. } | BranchEvent::Chatter { .. } | BranchEvent::NoConvergence | BranchEvent::ImpactLimit
-    );
+    let only = matches!(event, BranchEvent::Sticking { .. } | BranchEvent::NoConvergence | BranchEvent::ImpactLimit);
     (!only).then(|| event.name())
 }
 

@@ -37,7 +37,7 @@ pub(crate) fn branch((m, n): (u32, u32), gap: f64, direction: Direction) -> Resu
 /// A branch up to the complete chatter that it tends to.
 fn to_chatter(branch: Branch) -> Vec<SolutionPoint> {
     let mut points: Vec<SolutionPoint> = branch.collect();
-    let chatter = points.iter().position(|point| matches!(point.event, Some(BranchEvent::Chatter { .. })));
+    let chatter = points.iter().position(|point| matches!(point.event, Some(BranchEvent::Sticking { .. })));
     points.truncate(chatter.map_or(points.len(), |last| last + 1));
     points
 }

@@ -56,7 +56,7 @@ impl ImpactBranch {
         }
         let before = Label::new(u32::try_from(ring.len()).unwrap_or(u32::MAX), ring.periods);
         let detail = EventDetail::at(rest.release, (before, Some(cycle.label)));
-        let event = BranchEvent::Chatter { stop: rest.side.place(), detail: Some(detail) };
+        let event = BranchEvent::Sticking { stop: rest.side.place(), begins: true, detail: Some(detail) };
         Some(SolutionPoint { value: inside, cycle, physical: true, event: Some(event) })
     }
 }

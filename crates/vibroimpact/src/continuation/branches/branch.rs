@@ -83,9 +83,9 @@ impl Line {
     fn beside(&self, osc: &Oscillator, at: &SolutionPoint) -> Option<Cycle> {
         let of_release = |side: Side| from_release(osc, side, DEFAULT_EVENTS);
         let cycle = match at.event? {
-            BranchEvent::Chatter { stop, .. } => of_release(Side::at(stop))?,
-            BranchEvent::Stick { impact } => of_release(at.cycle.points.get(impact)?.state.side)?,
-            _ => {
+            BranchEvent::Sticking { stop, begins: true, .. } => of_release(Side::at(stop))?,
+            event => {
+                event.detail()?.labels.1?;
                 // without the rest that is over as it begins
                 let held = |k: &usize| phase::difference(at.cycle.rests[*k].release, at.cycle.rests[*k].begin).abs();
                 let over = (0..at.cycle.rests.len()).min_by(|a, b| held(a).total_cmp(&held(b)))?;
@@ -193,10 +193,12 @@ impl Iterator for Branch {
         }
         let point = self.method.next()?;
         self.count += 1;
-        if point.event.is_some_and(|event| event.changes_method()) {
+        if let Some(event @ BranchEvent::Sticking { .. }) = point.event {
+            let leads_on = event.detail().is_some_and(|detail| detail.labels.1.is_some());
+            let end = if leads_on { BranchEvent::NoConvergence } else { BranchEvent::ImpactLimit };
             match self.beyond(&point) {
                 Some(method) => self.method = method,
-                None => self.end = Some(SolutionPoint { event: Some(BranchEvent::NoConvergence), ..point.clone() }),
+                None => self.end = Some(SolutionPoint { event: Some(end), ..point.clone() }),
             }
         }
         if point.value != self.last {

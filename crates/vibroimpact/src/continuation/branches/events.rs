@@ -9,7 +9,7 @@ use super::problem::{BranchSolution, RESOLUTION};
 use super::switch::halved;
 use crate::continuation::equations::cycle_equations::CycleEquations;
 use crate::continuation::equations::test_functions::{Place, TestFunction};
-use crate::continuation::event::BranchEvent;
+use crate::continuation::event::{BranchEvent, EventDetail};
 use crate::continuation::trace::interpolate;
 use crate::continuation::trace::tracer::{Crossing, Step, last};
 use crate::math::sort_by;
@@ -57,7 +57,7 @@ impl ImpactBranch {
             } else if test.needed() && was && !self.path.options.keep_signature {
                 self.amid((last, place), &crossed[..n], &step);
                 if let TestFunction::Pull(k) = test {
-                    return self.end(&at, BranchEvent::Stick { impact: self.listed(&at, k) });
+                    return self.stick(&at, k);
                 }
                 return self.graze(&crossed[n..], &at);
             } else if test.needed() && is != was {
@@ -78,6 +78,17 @@ impl ImpactBranch {
         } else {
             self.take(step.there);
         }
+    }
+
+    /// Ends the part of the branch on which the mass does not stick: without a rebound it stays on the stop after impact `k`.
+    fn stick(&mut self, at: &BranchSolution, k: usize) {
+        let (impact, cycle) = (self.listed(at, k), &at.known.cycle);
+        let event = cycle.points.get(impact).map(|point| {
+            let labels = (cycle.label, Some(cycle.label));
+            let detail = EventDetail { impact: Some(impact), ..EventDetail::at(point.state.phase, labels) };
+            BranchEvent::Sticking { stop: point.state.side.place(), begins: true, detail: Some(detail) }
+        });
+        self.end(at, event.unwrap_or(BranchEvent::NoConvergence));
     }
 
     /// The crossings of a step in order. A fold or branch point close to another event is located again first, because

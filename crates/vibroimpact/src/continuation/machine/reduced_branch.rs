@@ -223,11 +223,9 @@ fn converted(event: BranchEvent, reduction: &Reduction) -> Option<BranchEvent> {
         }
         BranchEvent::LossOfContact { stop, .. } => BranchEvent::LossOfContact { stop: own(stop)?, detail: None },
         // the machine goes on where its oscillator rests, or has more impacts than are followed
-        BranchEvent::Stick { .. }
+        BranchEvent::Sticking { .. }
         | BranchEvent::SoftLanding { .. }
-        | BranchEvent::EndOfRest { .. }
         | BranchEvent::RestForEver { .. }
-        | BranchEvent::Chatter { .. }
         | BranchEvent::BecomesPhysical
         | BranchEvent::BecomesVirtual
         | BranchEvent::ImpactLimit

@@ -111,7 +111,7 @@ impl RestBranch {
     fn add(&mut self, value: f64, cycle: Cycle, event: Option<BranchEvent>) {
         self.pending.push_back(SolutionPoint { value, cycle, physical: true, event });
         self.count += 1;
-        self.over = event.is_some_and(|event| event.ends() || event.changes_method());
+        self.over = event.is_some_and(|event| event.ends() || matches!(event, BranchEvent::Sticking { .. }));
     }
 
     /// Ends the branch with an event at the current point.

@@ -242,17 +242,17 @@ impl RestBranch {
             excursion.rests().find(|rest| rest.held * osc.beta() < SHRUNK).map(|rest| rest.span)
         };
         if let Some(rest) = shrunk(&excursion) {
-            let stops = osc.stop(rest.side).is_some_and(|stop| stop.restitution == 0.0);
-            let (stop, labels) = (rest.side.place(), (cycle.label, stops.then_some(cycle.label)));
-            let detail = EventDetail::at(rest.release, labels);
-            let event = BranchEvent::EndOfRest { stop, detail: Some(detail) };
+            // after a chatter that is not complete there are infinitely many impacts
+            let (stop, after) = (rest.side.place(), (!rest.chatter).then_some(cycle.label));
+            let detail = EventDetail::at(rest.release, (cycle.label, after));
+            let event = BranchEvent::Sticking { stop, begins: false, detail: Some(detail) };
             return Some(FoundEvent { value: inside, event, cycle });
         }
         let beyond = self.excursion_at(outside)?;
         let rest = shrunk(&beyond)?;
         let (before, cycle) = (cycle.label, beyond.cycle()?);
         let detail = EventDetail::at(rest.release, (before, Some(cycle.label)));
-        let event = BranchEvent::Chatter { stop: rest.side.place(), detail: Some(detail) };
+        let event = BranchEvent::Sticking { stop: rest.side.place(), begins: true, detail: Some(detail) };
         Some(FoundEvent { value: outside, event, cycle })
     }
 }

@@ -233,7 +233,7 @@ impl EventBranch {
             let value = (here != there).then(|| CompleteChatter::value_of_number(equations, complete, stop))??;
             let mut at = at.clone();
             *at.w.last_mut()? = value;
-            Some((at, BranchEvent::Sticking { stop, begins }))
+            Some((at, BranchEvent::Sticking { stop, begins, detail: None }))
         })
     }
 

@@ -30,7 +30,7 @@ impl Difference {
                 BranchEvent::Grazing { stop, also: None, appears: false, turns, detail: None }
             }
             Self::Corner { first, second } => BranchEvent::Corner { first, second },
-            Self::Rest { place, joint: false, begins } => BranchEvent::Sticking { stop: place, begins },
+            Self::Rest { place, joint: false, begins } => BranchEvent::Sticking { stop: place, begins, detail: None },
             Self::Rest { place, begins, .. } => BranchEvent::Holding { joint: place, begins },
             Self::Other { place } => BranchEvent::Change { place },
         }

@@ -175,7 +175,7 @@ pub(super) fn explained(
         (Some(place), _) => {
             let begins = old[place].rests < new[place].rests;
             if place < stops {
-                BranchEvent::Sticking { stop: place, begins }
+                BranchEvent::Sticking { stop: place, begins, detail: None }
             } else {
                 BranchEvent::Holding { joint: place, begins }
             }
