@@ -1,4 +1,4 @@
-//! Branches on which one impact after another appears, and the complete chatter at which they end.
+//! Branches on which one impact after another appears, and the complete chatter to which they tend.
 //!
 //! Towards a chatter that is completed exactly at the release, cycles gain impacts at values of the parameter whose
 //! distances decrease by a fixed factor. Each of these values has a fold and a grazing event of its own, so no branch

@@ -84,8 +84,7 @@ impl Line {
         let of_release = |side: Side| from_release(osc, side, DEFAULT_EVENTS);
         let cycle = match at.event? {
             BranchEvent::Sticking { stop, begins: true, .. } => of_release(Side::at(stop))?,
-            event => {
-                event.detail()?.labels.1?;
+            _ => {
                 // without the rest that is over as it begins
                 let held = |k: &usize| phase::difference(at.cycle.rests[*k].release, at.cycle.rests[*k].begin).abs();
                 let over = (0..at.cycle.rests.len()).min_by(|a, b| held(a).total_cmp(&held(b)))?;
@@ -195,8 +194,13 @@ impl Iterator for Branch {
         self.count += 1;
         if let Some(event @ BranchEvent::Sticking { .. }) = point.event {
             let leads_on = event.detail().is_some_and(|detail| detail.labels.1.is_some());
-            let end = if leads_on { BranchEvent::NoConvergence } else { BranchEvent::ImpactLimit };
-            match self.beyond(&point) {
+            // where a chatter ceases to be complete, the cycles beyond have infinitely many impacts
+            let (next, end) = if leads_on {
+                (self.beyond(&point), BranchEvent::NoConvergence)
+            } else {
+                (None, BranchEvent::ImpactLimit)
+            };
+            match next {
                 Some(method) => self.method = method,
                 None => self.end = Some(SolutionPoint { event: Some(end), ..point.clone() }),
             }

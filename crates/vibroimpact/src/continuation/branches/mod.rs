@@ -2,11 +2,11 @@
 //!
 //! | idea | file |
 //! |---|---|
-//! | the branch | [`Branch`], [`BranchOptions`] |
+//! | the branch, by its impacts or by its release | [`Branch`], [`BranchOptions`] |
 //! | a point of a branch | [`SolutionPoint`] |
 //! | branches by the equations of the impacts: the problem of the tracer, the steps, their events | `problem`, `impact_branch`, `events` |
 //! | a grazing event, and the cycle beyond it | `touch`, `graze` |
-//! | the complete chatter at the end of a branch on which impacts appear one after another | `accumulation` |
+//! | the complete chatter to which a branch tends on which impacts appear one after another | `accumulation` |
 //! | transitions to and from the motion without impacts | `free` |
 //! | branches that begin at a flip or a branch point | `switch` |
 //! | branches of cycles that stick, by their release | `resting` |
