@@ -17,7 +17,7 @@ use super::saltation::StateShape;
 use crate::arc::{MachineFlight, Modes};
 use crate::machine::{FrictionJoint, Machine, MachineParts};
 use crate::math::{Matrix, RULE, add_scaled, dot};
-use crate::regime::{ContactState, ModalChange, Normal, NormalRate, Signal, Structure, compliant, panels, rates};
+use crate::regime::{ContactState, ModalChange, Normal, NormalRate, PRODUCTS, Signal, Structure, compliant, rates};
 use std::sync::Arc;
 
 /// The largest number of panels of half a flight.
@@ -273,11 +273,9 @@ impl<'a> ByNumber<'a> {
             ModalChange { y: zeros(), v: zeros(), push: zeros(), set: vec![0.0; self.machine.joints().len()] };
         let mut seen = Seen::default();
         let still = vec![0.0; n];
-        // decays are steep at the beginning, and those of the transition at the end
-        let mirrored = |(begin, length): &(f64, f64)| (time.abs() - begin - length, *length);
         let all = if modes > 0 && self.acts(structure) {
-            let halves = panels(&rates(structure), 0.5 * time.abs(), MOST_PANELS)?;
-            halves.iter().copied().chain(halves.iter().map(mirrored)).collect()
+            // decays are steep at the beginning, and those of the transition at the end
+            PRODUCTS.between_ends(&rates(structure), time.abs(), MOST_PANELS)?
         } else {
             Vec::new()
         };

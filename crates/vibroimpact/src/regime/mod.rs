@@ -53,7 +53,7 @@ pub use contact_state::ContactState;
 pub(crate) use guards::GuardKind;
 pub(crate) use mode::{FreeMode, Mode, Turned};
 pub(crate) use normal::{Normal, NormalRate, compliant};
-pub(crate) use panels::{panels, rates};
+pub(crate) use panels::{POLYNOMIALS, PRODUCTS, rates};
 pub(crate) use rest_force::RestBuffers;
 pub(crate) use sampled::{POWERS, REST, SAMPLES, Sampled, Span};
 pub(crate) use signal::{Observable, Signal, turned};

@@ -8,7 +8,7 @@ use crate::events::{Event, Passage, Place, contact_forces};
 use crate::machine::StopLaw;
 use crate::math::{Gauss, POINTS, add_scaled, dot};
 use crate::orbit::MachineFrame;
-use crate::regime::{ContactState, Signal, Structure, compliant, panels, rates};
+use crate::regime::{ContactState, POLYNOMIALS, Signal, Structure, compliant, rates};
 use crate::system::decay;
 use std::sync::Arc;
 
@@ -107,7 +107,7 @@ impl<'a> Tally<'a> {
         self.sums.time += duration;
         self.stand_still(from, duration, chatter);
         // once a flight is left out the integrals are not known, and no panels are spent on others
-        let all = if self.skipped { None } else { panels(&rates(structure), duration, self.left) };
+        let all = if self.skipped { None } else { POLYNOMIALS.of(&rates(structure), duration, self.left) };
         let Some(all) = all else {
             self.skipped = true;
             return;
