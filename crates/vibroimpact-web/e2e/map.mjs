@@ -210,7 +210,7 @@ const mean = (page, at) => page.evaluate(([x, y]) => {
 export async function what_is_no_motion_has_a_look_and_a_row_of_its_own({ open, folder }) {
   const window = [0.6, 1.4, 1, 5];
   const link = `#x=restitution&view=${window}&impacts=200&inverse_beta=1.11&layers=&panel=none`;
-  const { page } = await open(link, { whole: true, viewport: { width: 640, height: 480 } });
+  const { page } = await open(link, { whole: true, viewport: { width: 480, height: 400 } });
   await sharp(page);
   await page.screenshot({ path: `${folder}/looks.png` });
   const named = () => page.$$eval("#legend .legend-item .legend-name", (names) => names.map((name) => name.textContent));
@@ -218,7 +218,7 @@ export async function what_is_no_motion_has_a_look_and_a_row_of_its_own({ open, 
   const rows = await named();
   assert.ok(rows.includes("no such oscillator") && rows.includes("undecided in 200 impacts"), rows.join());
   assert.ok(!rows.includes("not computed yet"), rows.join());
-  const { page: waiting } = await open("about:blank", { viewport: { width: 640, height: 480 } });
+  const { page: waiting } = await open("about:blank", { viewport: { width: 480, height: 400 } });
   await waiting.route(/\/api\/(tile|picture)/, () => {});
   await waiting.goto(waiting.address + link);
   await until("the row of what is not computed", async () => (await waiting.locator("#legend").textContent()).includes("not computed yet"));

@@ -150,7 +150,7 @@ async fn every_point_of_a_whole_tile_is_that_of_the_command_without_refinement()
     let side = SIDE as usize;
     let names = ["inverse_beta", "gap"];
     for (more, budgets, within) in [
-        (r#","starts":1,"seed":1"#, [200, 5000], 10_000),
+        (r#","starts":1,"seed":1"#, [200, 2000], 10_000),
         (r#","starts":1,"seed":1"#, [200, 1000], 20),
         (r#","starts":16,"seed":1,"fields":["power"]"#, [60, 200], 0),
     ] {

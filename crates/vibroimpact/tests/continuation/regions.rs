@@ -60,10 +60,10 @@ impl Case {
         expected
     }
 
-    /// Random points of the frame, and points beside the middle of random edges; half of them, or with
+    /// Random points of the frame, and points beside the middle of random edges; a quarter of them, or with
     /// `VIBROIMPACT_LONG=1` all.
     fn check(&self, kind: RegionKind, count: u32) {
-        let count = if is_long() { count } else { count / 2 };
+        let count = if is_long() { count } else { count / 4 };
         self.check_beside(&self.check_at(kind, count), kind, count);
     }
 

@@ -9,7 +9,7 @@ use super::tally::on_all_cores;
 use core::f64::consts::TAU;
 use vibroimpact::flight::SearchLimits;
 
-const FLIGHTS: u64 = 2000;
+const FLIGHTS: u64 = 1000;
 /// With `VIBROIMPACT_LONG=1`, the same ones among them.
 const FLIGHTS_LONG: u64 = 4000;
 /// How long a flight the referee follows.

@@ -21,9 +21,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use vibroimpact::Side;
 use vibroimpact::flight::SearchLimits;
 
-const AIMED: u64 = 1000;
+const AIMED: u64 = 500;
 const AIMED_LONG: u64 = 10_000;
-const FINEST: u64 = 500;
+const FINEST: u64 = 300;
 const FINEST_LONG: u64 = 1000;
 
 /// The records of `x` along a flight without stops: highest points above everything before, up to `until`.

@@ -8,7 +8,7 @@ use super::tally::on_all_cores;
 use core::f64::consts::TAU;
 use vibroimpact::flight::SearchLimits;
 
-const FLIGHTS: u64 = 1000;
+const FLIGHTS: u64 = 500;
 /// With `VIBROIMPACT_LONG=1`, the same ones among them.
 const FLIGHTS_LONG: u64 = 2000;
 /// How long a flight the referee follows.

@@ -17,7 +17,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use vibroimpact::flight::{Contact, Flight, SearchLimits, first_contact};
 use vibroimpact::{Oscillator, Side, Start, lanes};
 
-const EVERYDAY: u64 = 200_000;
+const EVERYDAY: u64 = 100_000;
 const LONG: u64 = 100_000_000;
 /// Questions asked of one oscillator.
 const RUN: u64 = 20_000;

@@ -30,3 +30,8 @@ mod quantities;
 mod settling;
 mod side_by_side;
 mod verdicts;
+
+/// Whether long tests run in full.
+fn is_long() -> bool {
+    std::env::var("VIBROIMPACT_LONG").is_ok_and(|value| value == "1")
+}

@@ -1,6 +1,7 @@
 //! Verdicts that were wrong once, by the numbers of their entries in the history of CORRECTNESS.md, and the families they belong
 //! to: each verdict against its own motion followed ten times as far, each start alone and in company.
 
+use super::is_long;
 use vibroimpact::chaos::{ExponentOptions, Grounds, exponents};
 use vibroimpact::events;
 use vibroimpact::lanes::Width;
@@ -200,7 +201,7 @@ fn f04a_a_small_budget_decides_a_start_alike_whatever_is_known() {
 #[test]
 fn f04b_any_start_is_decided_alike_in_any_company() {
     let mut seed = 11;
-    for k in 0..if long() { 400 } else { 30 } {
+    for k in 0..if is_long() { 400 } else { 20 } {
         let osc = anything(&mut seed);
         let start = |n: u64| scattered_starts(&osc, StartBox::natural(&osc), 9, n);
         in_company(&osc, &SettleOptions::at_most([60, 100, 200, 1000, 6000][k % 5]), 100, start);
@@ -237,10 +238,6 @@ fn f05b_gap_zero_and_odd_frequencies_have_no_impacts() {
 }
 
 // ---- every verdict against its own motion followed ten times as far ----
-
-fn long() -> bool {
-    std::env::var("VIBROIMPACT_LONG").is_ok_and(|value| value == "1")
-}
 
 /// The finaliser of SplitMix64, as a number in [0, 1).
 fn draw(seed: &mut u64) -> f64 {
@@ -374,7 +371,7 @@ fn refuted(name: &str, count: u64, system: Family) -> (u64, u64, u64) {
 /// stand in docs/tour.md.
 #[test]
 fn f01_no_verdict_is_refuted_by_its_own_motion() {
-    let counts: [u64; 3] = if long() { [1040, 1200, 2760] } else { [60, 150, 60] };
+    let counts: [u64; 3] = if is_long() { [1040, 1200, 2760] } else { [40, 150, 40] };
     let families: [(&str, Family); 3] =
         [("preloaded", preloaded), ("undamped above |f|", above_the_free_amplitude), ("anything", anything)];
     for ((name, system), count) in families.into_iter().zip(counts) {
