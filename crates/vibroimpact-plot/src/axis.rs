@@ -18,14 +18,12 @@ pub struct FigureAxis {
     pub ticks: Option<Vec<Tick>>,
     /// Whether ticks have numbers (not for the upper one of two stacked panels).
     pub numbers: bool,
-    /// Whether thin grey lines cross the panel at the labelled ticks.
-    pub grid: bool,
 }
 
 impl FigureAxis {
     /// A linear axis that fits its data.
     pub fn new(label: impl Into<String>) -> Self {
-        Self { label: label.into(), range: None, scale: Scale::Linear, ticks: None, numbers: true, grid: false }
+        Self { label: label.into(), range: None, scale: Scale::Linear, ticks: None, numbers: true }
     }
 
     /// Shows exactly `first` to `last`.
@@ -50,12 +48,6 @@ impl FigureAxis {
     #[must_use]
     pub fn without_numbers(self) -> Self {
         Self { numbers: false, ..self }
-    }
-
-    /// Thin lines across the panel at the labelled ticks.
-    #[must_use]
-    pub fn grid(self) -> Self {
-        Self { grid: true, ..self }
     }
 
     /// The range to draw: finite, not empty, and positive on a logarithmic axis, whatever range was given. `data` are

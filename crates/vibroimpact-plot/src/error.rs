@@ -1,12 +1,11 @@
 //! The errors of figures, as data; `Display` makes the message.
 
-use std::fmt;
-
 /// A reason why a figure could not be made.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlotError {
     /// The number of class indices is not `nx * ny`.
+    #[error("a raster of {nx} x {ny} cells needs {} class indices, {given} were given", nx.saturating_mul(*ny))]
     RasterSize {
         /// Number of class indices given.
         given: usize,
@@ -16,6 +15,9 @@ pub enum PlotError {
         ny: usize,
     },
     /// The image would have no pixels, or more than the allowed number.
+    #[error(
+        "an image of {width} x {height} pixels lies outside 1..={MAX_SIDE} on a side\nhint: scale is pixels per figure unit; 1.476 gives 300 dpi"
+    )]
     ImageSize {
         /// Width in pixels.
         width: f64,
@@ -23,6 +25,7 @@ pub enum PlotError {
         height: f64,
     },
     /// A page of this size cannot be written.
+    #[error("a page of {width} x {height} mm cannot be written")]
     PageSize {
         /// Width in millimetres.
         width: f64,
@@ -30,6 +33,9 @@ pub enum PlotError {
         height: f64,
     },
     /// A figure of this size has no room for its panels.
+    #[error(
+        "a figure of {width} x {height} mm has no room for its axes and its legend\nhint: the usual figure of one column is 85 mm wide and 60 mm high"
+    )]
     NoRoom {
         /// Width in millimetres.
         width: f64,
@@ -37,43 +43,18 @@ pub enum PlotError {
         height: f64,
     },
     /// The renderer refused the SVG text: a defect of this crate.
+    #[error("the renderer refused the figure's SVG text: {0}")]
     Svg(String),
     /// The PNG encoder failed: a defect of this crate.
+    #[error("the figure could not be encoded as PNG: {0}")]
     Png(String),
     /// The writer of PDF failed: a defect of this crate.
+    #[error("the figure could not be written as PDF: {0}")]
     Pdf(String),
 }
 
 /// The longest side of a PNG, in pixels: 170 mm at 2400 dpi.
 pub(crate) const MAX_SIDE: f64 = 16_384.0;
-
-impl fmt::Display for PlotError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::RasterSize { given, nx, ny } => write!(
-                f,
-                "a raster of {nx} x {ny} cells needs {} class indices, {given} were given",
-                nx.saturating_mul(*ny)
-            ),
-            Self::ImageSize { width, height } => write!(
-                f,
-                "an image of {width} x {height} pixels lies outside 1..={MAX_SIDE} on a side\n\
-                 hint: scale is pixels per figure unit; 1.476 gives 300 dpi"
-            ),
-            Self::NoRoom { width, height } => write!(
-                f,
-                "a figure of {width} x {height} mm has no room for its axes and its legend\n\
-                 hint: the usual figure of one column is 85 mm wide and 60 mm high"
-            ),
-            Self::Svg(why) => write!(f, "the renderer refused the figure's SVG text: {why}"),
-            Self::PageSize { width, height } => write!(f, "a page of {width} x {height} mm cannot be written"),
-            Self::Pdf(why) => write!(f, "the figure could not be written as PDF: {why}"),
-            Self::Png(why) => write!(f, "the figure could not be encoded as PNG: {why}"),
-        }
-    }
-}
-
-impl std::error::Error for PlotError {}
 
 #[cfg(test)]
 mod tests {

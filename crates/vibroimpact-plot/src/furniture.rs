@@ -1,4 +1,4 @@
-//! The parts around the data of a panel: grid, ticks, numbers, labels, caption.
+//! The parts around the data of a panel: ticks, numbers, labels, caption.
 
 use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
@@ -11,20 +11,6 @@ use crate::theme;
 use crate::ticks::Tick;
 
 impl Panel {
-    pub(crate) fn draw_grid(&self, canvas: &mut Canvas, frame: &Frame, prepared: &Prepared) {
-        let mut d = String::new();
-        for tick in prepared.x_ticks.iter().filter(|t| self.x.grid && !t.label.is_empty()) {
-            d.push_str(&format!("M{} {}V{}", N(frame.x.at(tick.value)), N(frame.top), N(frame.bottom())));
-        }
-        for tick in prepared.y_ticks.iter().filter(|t| self.y.grid && !t.label.is_empty()) {
-            d.push_str(&format!("M{} {}H{}", N(frame.left), N(frame.y.at(tick.value)), N(frame.right())));
-        }
-        if !d.is_empty() {
-            let stroke = Stroke::new(Colour::hex(0xd8_d8d8)).width(1.0).attributes();
-            canvas.push(&format!("<path d=\"{d}\" fill=\"none\"{stroke}/>\n"));
-        }
-    }
-
     /// Draws the ticks. They point outwards, so they neither cover data nor disappear in a raster.
     pub(crate) fn draw_ticks(&self, canvas: &mut Canvas, frame: &Frame, prepared: &Prepared) {
         let (left, bottom, size) = (frame.left, frame.bottom(), theme::TICK_TEXT);

@@ -4,7 +4,7 @@ use crate::axis::Mapping;
 use crate::canvas::Frame;
 use crate::colour_bar::PreparedBar;
 use crate::figure::Figure;
-use crate::legend::{Arranged, Legend, Place};
+use crate::legend::Arranged;
 use crate::panel::{Margins, Prepared};
 use crate::theme;
 
@@ -33,50 +33,23 @@ impl Layout {
         let edge = theme::MARGIN;
         let head = edge + if figure.title.is_some() { 1.5 * theme::TITLE_TEXT } else { 0.0 };
         let legend = figure.legend.as_ref().filter(|l| !l.entries.is_empty() || l.title.is_some());
-        let arranged = legend.map(|l| arrange(l, width - 2.0 * edge, height - head - 60.0));
-        let beside = match &arranged {
-            Some((Place::Right, a)) => a.width + theme::GAP,
-            _ => 0.0,
-        };
+        let arranged = legend.map(|l| l.arrange(width - 2.0 * edge));
         let bar = figure.colour_bar.as_ref().map(|bar| bar.prepare((height - head - AXIS).max(SMALLEST)));
         let barred = bar.as_ref().map_or(0.0, |bar| bar.width + theme::GAP / 2.0);
-        let inner = (width - 2.0 * edge - beside - barred, height - head - edge);
+        let inner = (width - 2.0 * edge - barred, height - head - edge);
         let panels = frames(figure, (edge, head), inner);
         let (mut outer, mut spot) = (height, None);
-        if let Some((place, a)) = arranged {
-            let (left, top) = match place {
-                Place::Right => {
-                    let top = panels.first().map_or(head, |(f, _)| f.top);
-                    outer = outer.max(top + a.height + edge);
-                    (width - edge - a.width, top)
-                }
-                Place::Below => {
-                    outer += a.height + theme::GAP / 2.0;
-                    (((width - a.width) / 2.0).max(edge), height + theme::GAP / 2.0 - edge)
-                }
-            };
-            spot = Some((left, top, a));
+        if let Some(a) = arranged {
+            outer += a.height + theme::GAP / 2.0;
+            spot = Some((((width - a.width) / 2.0).max(edge), height + theme::GAP / 2.0 - edge, a));
         }
         let top = panels.iter().map(|(frame, _)| frame.top).fold(f64::INFINITY, f64::min);
         let bottom = panels.iter().map(|(frame, _)| frame.bottom()).fold(f64::NEG_INFINITY, f64::max);
         let bar = bar.filter(|_| top < bottom);
-        let colour_bar = bar.map(|bar| (width - edge - beside - bar.width, (top, bottom), bar));
+        let colour_bar = bar.map(|bar| (width - edge - bar.width, (top, bottom), bar));
         Self { width, height: outer, panels, legend: spot, colour_bar }
     }
 }
-
-/// Arranges the legend at the requested place. One that is too wide to stand beside the panels is placed below them.
-fn arrange(legend: &Legend, width: f64, height: f64) -> (Place, Arranged) {
-    let wanted = legend.arrange(legend.place, width, height);
-    if legend.place == Place::Right && wanted.width > WIDEST * width {
-        (Place::Below, legend.arrange(Place::Below, width, height))
-    } else {
-        (legend.place, wanted)
-    }
-}
-
-/// Maximum width of a legend beside the panels, relative to the width of the figure.
-const WIDEST: f64 = 0.5;
 
 /// Frames of equal size in a grid. Rows and columns have common margins, so that axes are aligned.
 fn frames(figure: &Figure, (left, top): (f64, f64), (width, height): (f64, f64)) -> Vec<(Frame, Prepared)> {
@@ -128,7 +101,7 @@ fn frames(figure: &Figure, (left, top): (f64, f64), (width, height): (f64, f64))
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{FigureAxis, Key, Panel, class_style};
+    use crate::{FigureAxis, Key, Legend, Panel, class_style};
 
     fn legend(text: &str) -> Legend {
         Legend::below().entry(Key::Patch(class_style("1/1")), text)
@@ -148,20 +121,10 @@ mod tests {
 
     #[test]
     fn a_legend_may_be_one_line_of_text() {
-        let (bare, said) = (Figure::new(panel()), Figure::new(panel()).legend(Legend::below().title("a sentence")));
+        let sentence = Legend { title: Some("a sentence".to_owned()), ..Legend::below() };
+        let (bare, said) = (Figure::new(panel()), Figure::new(panel()).legend(sentence));
         assert!(said.outer_size().1 > bare.outer_size().1 && said.to_svg().contains("a sentence"));
         assert_eq!(Figure::new(panel()).legend(Legend::below()).outer_size(), bare.outer_size());
-    }
-
-    #[test]
-    fn a_legend_beside_starts_right_of_the_frames() {
-        let right = |text: &str| Legend { place: Place::Right, ..legend(text) };
-        let layout = Layout::of(&Figure::new(panel()).legend(right("1/1")));
-        let left = layout.legend.map_or(0.0, |(left, _, _)| left);
-        assert!(left >= layout.panels[0].0.right() + theme::GAP / 2.0);
-        let layout = Layout::of(&Figure::new(panel()).legend(right(&"long ".repeat(20))));
-        let top = layout.legend.map_or(0.0, |(_, top, _)| top);
-        assert!(top > layout.panels[0].0.bottom(), "too wide: below");
     }
 
     #[test]

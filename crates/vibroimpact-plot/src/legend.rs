@@ -1,4 +1,4 @@
-//! The legend: the meaning of the signs of a figure, placed beside or below the panels and never over them.
+//! The legend: the meaning of the signs of a figure, placed below the panels and never over them.
 
 use crate::canvas::Canvas;
 use crate::colour::Colour;
@@ -10,17 +10,6 @@ use crate::palette::ClassStyle;
 use crate::stroke::Stroke;
 use crate::theme;
 use serde::Serialize;
-
-/// The place of the legend.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Place {
-    /// To the right of the panels, which become narrower; or below them if it would take more than half of the width.
-    Right,
-    /// Below the panels; the figure becomes higher.
-    #[default]
-    Below,
-}
 
 /// The sign of an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -50,8 +39,6 @@ pub struct Entry {
 pub struct Legend {
     /// The entries, in columns from top to bottom.
     pub entries: Vec<Entry>,
-    /// Its place.
-    pub place: Place,
     /// A line of text above the entries.
     pub title: Option<String>,
 }
@@ -67,18 +54,6 @@ impl Legend {
     #[must_use]
     pub fn below() -> Self {
         Self::default()
-    }
-
-    /// An empty legend to the right of the panels.
-    #[must_use]
-    pub fn right() -> Self {
-        Self { place: Place::Right, ..Self::default() }
-    }
-
-    /// Sets the line above the entries.
-    #[must_use]
-    pub fn title(self, markup: impl Into<String>) -> Self {
-        Self { title: Some(markup.into()), ..self }
     }
 
     /// Adds an entry.
@@ -106,16 +81,12 @@ impl Legend {
         self.entry(Key::Patch(style), label)
     }
 
-    /// The positions of all entries in the given room.
-    pub(crate) fn arrange(&self, place: Place, width: f64, height: f64) -> Arranged {
+    /// The positions of all entries in the given width.
+    pub(crate) fn arrange(&self, width: f64) -> Arranged {
         let head = if self.title.is_some() { ROW } else { 0.0 };
         let n = self.entries.len();
-        let rows = match place {
-            #[expect(clippy::cast_possible_truncation, reason = "at least 1, and far below 2^31")]
-            Place::Right => (((height - head) / ROW).floor().clamp(1.0, 1e4) as usize).min(n.max(1)),
-            // the smallest number of rows that fits the width
-            Place::Below => (1..=n).find(|&rows| self.total(&self.widths(rows)) <= width).unwrap_or(n),
-        };
+        // the smallest number of rows that fits the width
+        let rows = (1..=n).find(|&rows| self.total(&self.widths(rows)) <= width).unwrap_or(n);
         let widths = self.widths(rows);
         let title = self.title.as_ref().map_or(0.0, |t| markup::width(t, theme::LEGEND_TEXT));
         let wide = self.total(&widths).max(title);
@@ -207,18 +178,11 @@ mod tests {
 
     #[test]
     fn below_wraps_into_columns_that_fit() {
-        let arranged = legend(14).arrange(Place::Below, 660.0, 400.0);
+        let arranged = legend(14).arrange(660.0);
         assert!(arranged.width <= 660.0);
         assert_eq!((arranged.rows, arranged.widths.len()), (5, 3));
-        let narrow = legend(3).arrange(Place::Below, 10.0, 400.0);
+        let narrow = legend(3).arrange(10.0);
         assert_eq!(narrow.rows, 3, "too narrow for anything: one column");
-        assert_eq!(legend(0).arrange(Place::Below, 660.0, 400.0).height, 0.0);
-    }
-
-    #[test]
-    fn right_wraps_at_the_height() {
-        let right = Legend { place: Place::Right, ..legend(14) };
-        assert_eq!(right.arrange(Place::Right, 660.0, 10.0 * ROW).widths.len(), 2);
-        assert_eq!(right.arrange(Place::Right, 660.0, -3.0).rows, 1);
+        assert_eq!(legend(0).arrange(660.0).height, 0.0);
     }
 }

@@ -1,7 +1,7 @@
 //! Figures of vibro-impact dynamics: from slices to SVG text or PNG bytes.
 //!
 //! A [`Figure`] is plain data: [`Panel`]s with two [`FigureAxis`] each, marks drawn in the given order, and a
-//! [`Legend`] beside or below the panels that never covers data. [`Figure::to_svg`] and [`Figure::to_png`] read no
+//! [`Legend`] below the panels that never covers data. [`Figure::to_svg`] and [`Figure::to_png`] read no
 //! files, start no threads, use no fonts of the machine, and give the same bytes for the same figure.
 //!
 //! ```
@@ -64,7 +64,7 @@ pub use error::PlotError;
 pub use figure::Figure;
 pub use hatch::{Hatch, Pattern};
 pub use label::Anchor;
-pub use legend::{Entry, Key, Legend, Place};
+pub use legend::{Entry, Key, Legend};
 pub use mark::Mark;
 pub use mark::guide::{HLine, TextSide, VLine, Wall};
 pub use mark::line::Line;
@@ -81,5 +81,5 @@ pub use panel::Panel;
 pub use scale::Scale;
 pub use stroke::{Dash, Stroke};
 pub use theme::{COLUMN, DOUBLE_COLUMN, DPI_300, UNITS_PER_MM};
-pub use ticks::{Tick, nice_ticks};
+pub use ticks::Tick;
 pub use vision::Vision;

@@ -40,33 +40,47 @@ impl ClassStyle {
     pub const fn plain(colour: Colour) -> Self {
         Self { colour, hatch: None }
     }
-
-    const fn hatched(colour: u32, pattern: Pattern, lines: u32) -> Self {
-        let hatch = Some(Hatch::new(pattern, Colour::hex(lines)));
-        Self { colour: Colour::hex(colour), hatch }
-    }
 }
 
-/// All legend groups, in the order of a legend.
-pub const GROUPS: [&str; 17] = [
-    "0",
-    "1/1",
-    "2/1",
-    "3/1",
-    "4/1",
-    "m/1",
-    "1/2",
-    "1/3",
-    "1/n",
-    "k/k",
-    "3/2",
-    "m/n",
-    "inf/n",
-    "chaotic",
-    "stuck",
-    "undecided",
-    "other",
+const fn plain(colour: u32) -> ClassStyle {
+    ClassStyle::plain(Colour::hex(colour))
+}
+
+const fn hatched(colour: u32, pattern: Pattern, lines: u32) -> ClassStyle {
+    ClassStyle { hatch: Some(Hatch::new(pattern, Colour::hex(lines))), ..plain(colour) }
+}
+
+/// All legend groups in the order of a legend, each with its text in the markup of [labels](crate::plain) and its style.
+const LOOKS: [(&str, &str, ClassStyle); 17] = [
+    ("0", "no impact", plain(0xf2_eecb)),
+    ("1/1", "1/1", plain(0x9a_d6ee)),
+    ("2/1", "2/1", plain(0x3f_a0d0)),
+    ("3/1", "3/1", plain(0x1a_6fb0)),
+    ("4/1", "4/1", plain(0x17_3f86)),
+    ("m/1", "*m*/1, *m* ≥ 5", hatched(0x2b_1b57, Pattern::Rising, 0xa9_9ae0)),
+    ("1/2", "1/2", plain(0xf2_a71b)),
+    ("1/3", "1/3", plain(0xd9_601a)),
+    ("1/n", "1/*n*, *n* ≥ 4", hatched(0x9a_2f0e, Pattern::Falling, 0xf2_b79a)),
+    ("k/k", "*k*/*k*, *k* ≥ 2", hatched(0xd3_e27a, Pattern::Horizontal, 0x7b_8a1e)),
+    ("3/2", "3/2", hatched(0x0b_8f62, Pattern::Vertical, 0xb5_ead2)),
+    ("m/n", "other *m*/*n*", hatched(0x7f_d0a0, Pattern::Dots, 0x14_5c3a)),
+    ("inf/n", "∞/*n* (chatter)", hatched(0xee_94bb, Pattern::Falling, 0x93_1f5c)),
+    ("chaotic", "chaotic", plain(0x10_1010)),
+    ("stuck", "stuck", hatched(0x5e_4636, Pattern::Horizontal, 0xd9_c3ae)),
+    ("undecided", "undecided", hatched(0xe8_eaee, Pattern::Cross, 0xd0_2020)),
+    ("other", "other", hatched(0x8a_8a80, Pattern::Dots, 0xff_ffff)),
 ];
+
+/// All legend groups, in the order of a legend.
+pub const GROUPS: [&str; LOOKS.len()] = {
+    let mut groups = [""; LOOKS.len()];
+    let mut k = 0;
+    while k < LOOKS.len() {
+        groups[k] = LOOKS[k].0;
+        k += 1;
+    }
+    groups
+};
 
 /// The legend group of the label of a motion: one of [`GROUPS`].
 ///
@@ -167,8 +181,7 @@ pub fn class_style(label: &str) -> ClassStyle {
     if let Some(m) = unforced(label) {
         return class_style(&format!("{}/1", m.saturating_add(1)));
     }
-    let group = group_of(label);
-    let style = group_style(group);
+    let (group, _, style) = look(label);
     match shade(label, group) {
         Some(colour) => ClassStyle { colour, ..style },
         None => style,
@@ -192,55 +205,16 @@ fn shade(label: &str, group: &str) -> Option<Colour> {
     shades.get(usize::try_from((m % 5 + 2 * (n % 5)) % 5).ok()?.checked_sub(1)?).copied()
 }
 
-fn group_style(group: &str) -> ClassStyle {
-    let plain = |rgb| ClassStyle::plain(Colour::hex(rgb));
-    match group {
-        "0" => plain(0xf2_eecb),
-        "1/1" => plain(0x9a_d6ee),
-        "2/1" => plain(0x3f_a0d0),
-        "3/1" => plain(0x1a_6fb0),
-        "4/1" => plain(0x17_3f86),
-        "m/1" => ClassStyle::hatched(0x2b_1b57, Pattern::Rising, 0xa9_9ae0),
-        "1/2" => plain(0xf2_a71b),
-        "1/3" => plain(0xd9_601a),
-        "1/n" => ClassStyle::hatched(0x9a_2f0e, Pattern::Falling, 0xf2_b79a),
-        "k/k" => ClassStyle::hatched(0xd3_e27a, Pattern::Horizontal, 0x7b_8a1e),
-        "3/2" => ClassStyle::hatched(0x0b_8f62, Pattern::Vertical, 0xb5_ead2),
-        "m/n" => ClassStyle::hatched(0x7f_d0a0, Pattern::Dots, 0x14_5c3a),
-        "inf/n" => ClassStyle::hatched(0xee_94bb, Pattern::Falling, 0x93_1f5c),
-        "chaotic" => plain(0x10_1010),
-        "stuck" => ClassStyle::hatched(0x5e_4636, Pattern::Horizontal, 0xd9_c3ae),
-        "undecided" => ClassStyle::hatched(0xe8_eaee, Pattern::Cross, 0xd0_2020),
-        _ => ClassStyle::hatched(0x8a_8a80, Pattern::Dots, 0xff_ffff),
-    }
-}
-
 /// The text of the group of a label for a legend, in the markup of [labels](crate::plain).
 #[must_use]
 pub fn legend_text(label: &str) -> &'static str {
-    match group_of(label) {
-        "0" => "no impact",
-        "1/1" => "1/1",
-        "2/1" => "2/1",
-        "3/1" => "3/1",
-        "4/1" => "4/1",
-        "m/1" => "*m*/1, *m* ≥ 5",
-        "1/2" => "1/2",
-        "1/3" => "1/3",
-        "1/n" => "1/*n*, *n* ≥ 4",
-        "k/k" => "*k*/*k*, *k* ≥ 2",
-        "3/2" => "3/2",
-        "m/n" => "other *m*/*n*",
-        "inf/n" => "∞/*n* (chatter)",
-        "chaotic" => "chaotic",
-        "stuck" => "stuck",
-        "undecided" => "undecided",
-        _ => "other",
-    }
+    look(label).1
 }
 
-fn group_of(label: &str) -> &'static str {
-    GROUPS.into_iter().find(|group| *group == label).unwrap_or_else(|| legend_group(label))
+/// The group of a label with its text and its style; the label may be that of a group.
+fn look(label: &str) -> (&'static str, &'static str, ClassStyle) {
+    let group = GROUPS.into_iter().find(|group| *group == label).unwrap_or_else(|| legend_group(label));
+    LOOKS.into_iter().find(|(name, ..)| *name == group).unwrap_or(LOOKS[LOOKS.len() - 1])
 }
 
 #[cfg(test)]

@@ -109,9 +109,6 @@ impl Panel {
     pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame, prepared: &Prepared) {
         canvas.define_clip(frame);
         canvas.push("<g>\n");
-        if !self.bare {
-            self.draw_grid(canvas, frame, prepared);
-        }
         for mark in &self.marks {
             mark.draw(canvas, frame);
         }

@@ -7,7 +7,9 @@ use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
 use crate::error::{MAX_SIDE, PlotError};
 use crate::mark::extent::Extent;
+use crate::mark::rects::{Rect, Rects};
 use crate::number::N;
+use crate::palette::ClassStyle;
 use crate::scale::Scale;
 use crate::vision::Vision;
 use serde::Serialize;
@@ -68,7 +70,7 @@ impl Raster {
 
     pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
         if [frame.x.scale, frame.y.scale].contains(&Scale::Log10) {
-            return self.draw_cells(canvas, frame);
+            return self.runs().draw(canvas, frame);
         }
         let (a, b) = (frame.x.at(self.x.0), frame.x.at(self.x.1));
         let (c, d) = (frame.y.at(self.y.0), frame.y.at(self.y.1));
@@ -128,27 +130,20 @@ impl Raster {
         Pixmap::from_vec(data, size)?.encode_png().ok()
     }
 
-    /// On a logarithmic axis cells have different widths, so runs of one class are drawn as rectangles.
-    fn draw_cells(&self, canvas: &mut Canvas, frame: &Frame) {
+    /// Runs of one class as rectangles, because cells have different widths on a logarithmic axis.
+    fn runs(&self) -> Rects {
         let step = |(a, b): (f64, f64), i: usize, n: usize| a + (b - a) * i as f64 / n as f64;
-        let mut paths = vec![String::new(); self.palette.len()];
+        let mut rects = Rects::new(self.palette.iter().map(|colour| ClassStyle::plain(*colour)).collect::<Vec<_>>());
         for (j, row) in self.classes.chunks(self.nx).enumerate() {
             let y = (step(self.y, j, self.ny), step(self.y, j + 1, self.ny));
             let mut i = 0;
             for run in row.chunk_by(|a, b| a == b) {
                 let x = (step(self.x, i, self.nx), step(self.x, i + run.len(), self.nx));
                 i += run.len();
-                if let (Some(path), Some([l, t, r, b])) = (paths.get_mut(usize::from(run[0])), frame.cut(x, y)) {
-                    path.push_str(&format!("M{} {}H{}V{}H{}z", N(l), N(t), N(r), N(b), N(l)));
-                }
+                rects.rects.push(Rect { x, y, class: usize::from(run[0]) });
             }
         }
-        for (path, colour) in paths.iter().zip(&self.palette) {
-            if !path.is_empty() {
-                let fill = colour.paint("fill");
-                canvas.push(&format!("<path d=\"{path}\" shape-rendering=\"crispEdges\"{fill}/>\n"));
-            }
-        }
+        rects
     }
 
     pub(crate) fn extent(&self, x: &mut Extent, y: &mut Extent) {

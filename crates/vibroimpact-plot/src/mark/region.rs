@@ -39,18 +39,6 @@ impl FilledRegion {
         Self { fill: Some(colour), ..self }
     }
 
-    /// Sets the hatch.
-    #[must_use]
-    pub fn hatch(self, hatch: Hatch) -> Self {
-        Self { hatch: Some(hatch), ..self }
-    }
-
-    /// Sets the outline.
-    #[must_use]
-    pub fn outline(self, stroke: Stroke) -> Self {
-        Self { outline: Some(stroke), ..self }
-    }
-
     pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
         let mut path = String::new();
         for ring in &self.rings {

@@ -4,7 +4,6 @@ use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
 use crate::label::{Anchor, Placed};
 use crate::mark::extent::Extent;
-use crate::number::N;
 use crate::theme;
 use serde::Serialize;
 
@@ -29,8 +28,6 @@ pub struct Text {
     pub colour: Colour,
     /// Whether it has a white outline, so that it is legible over colours.
     pub halo: bool,
-    /// Whether a thin line joins the point and the shifted label.
-    pub leader: bool,
 }
 
 impl Text {
@@ -46,7 +43,6 @@ impl Text {
             size: theme::MARK_TEXT,
             colour: Colour::BLACK,
             halo: true,
-            leader: false,
         }
     }
 
@@ -68,22 +64,10 @@ impl Text {
         Self { size, ..self }
     }
 
-    /// Sets the colour.
-    #[must_use]
-    pub fn colour(self, colour: Colour) -> Self {
-        Self { colour, ..self }
-    }
-
     /// Removes the white outline.
     #[must_use]
     pub fn without_halo(self) -> Self {
         Self { halo: false, ..self }
-    }
-
-    /// Adds a thin line to its point.
-    #[must_use]
-    pub fn leader(self) -> Self {
-        Self { leader: true, ..self }
     }
 
     pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
@@ -93,15 +77,6 @@ impl Text {
         }
         let size = if self.size.is_finite() { self.size.clamp(1.0, 400.0) } else { theme::MARK_TEXT };
         let (x, y) = (place.0 + self.dx, place.1 - self.dy);
-        if self.leader {
-            let d = format!("M{} {}L{} {}", N(place.0), N(place.1), N(x), N(y));
-            for (width, colour) in [(4.5, Colour::WHITE), (1.5, self.colour)] {
-                canvas.push(&format!(
-                    "<path d=\"{d}\" fill=\"none\" stroke-width=\"{width}\"{}/>\n",
-                    colour.paint("stroke")
-                ));
-            }
-        }
         // capitals are 0.73 high, so this baseline centres them
         let baseline = y + 0.365 * size;
         let placed = Placed {
