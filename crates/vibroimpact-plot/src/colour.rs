@@ -55,8 +55,7 @@ impl Colour {
     }
 
     /// Linear-light red, green, blue in 0..=1 (IEC 61966-2-1).
-    #[must_use]
-    pub fn linear(self) -> [f64; 3] {
+    pub(crate) fn linear(self) -> [f64; 3] {
         [self.r, self.g, self.b].map(|v| {
             let v = f64::from(v) / 255.0;
             if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
@@ -64,8 +63,7 @@ impl Colour {
     }
 
     /// The opaque colour with these linear-light components, limited to 0..=1.
-    #[must_use]
-    pub fn from_linear(rgb: [f64; 3]) -> Self {
+    pub(crate) fn from_linear(rgb: [f64; 3]) -> Self {
         let [r, g, b] = rgb.map(|v| {
             let v = v.clamp(0.0, 1.0);
             let v = if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
@@ -77,8 +75,7 @@ impl Colour {
     }
 
     /// CIE L\*, a\*, b\* under D65.
-    #[must_use]
-    pub fn lab(self) -> [f64; 3] {
+    pub(crate) fn lab(self) -> [f64; 3] {
         let [r, g, b] = self.linear();
         let x = (0.412_456_4 * r + 0.357_576_1 * g + 0.180_437_5 * b) / 0.950_47;
         let y = 0.212_672_9 * r + 0.715_152_2 * g + 0.072_175_0 * b;

@@ -132,8 +132,7 @@ impl GroupRule {
     }
 
     /// Whether m/n satisfies the rule.
-    #[must_use]
-    pub const fn holds(&self, m: u64, n: u64) -> bool {
+    pub(crate) const fn holds(&self, m: u64, n: u64) -> bool {
         self.m.0 <= m && m <= self.m.1 && self.n.0 <= n && n <= self.n.1 && (!self.equal || m == n)
     }
 }

@@ -12,8 +12,7 @@ use crate::{grey, render, resolution, theme};
 
 impl Figure {
     /// Width and height including the legend, in figure units: the number of PNG pixels at scale 1.
-    #[must_use]
-    pub fn outer_size(&self) -> (f64, f64) {
+    pub(crate) fn outer_size(&self) -> (f64, f64) {
         let layout = Layout::of(self);
         (layout.width, layout.height)
     }

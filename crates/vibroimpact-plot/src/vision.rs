@@ -22,8 +22,7 @@ pub enum Vision {
 
 impl Vision {
     /// The colour as it appears in this kind of vision.
-    #[must_use]
-    pub fn see(self, colour: Colour) -> Colour {
+    pub(crate) fn see(self, colour: Colour) -> Colour {
         let matrix = match self {
             Self::Normal => return colour,
             Self::Protanopia => [

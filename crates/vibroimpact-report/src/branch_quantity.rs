@@ -36,14 +36,12 @@ impl<'a> BranchQuantity<'a> {
     }
 
     /// The quantity at a path.
-    #[must_use]
-    pub fn at_path(path: String, source: &'a MachineSource, cut: &Cut<String>) -> Self {
+    pub(crate) fn at_path(path: String, source: &'a MachineSource, cut: &Cut<String>) -> Self {
         Self { path, source, cut: cut.clone() }
     }
 
     /// Its value at a point; `NaN` if it is not defined there.
-    #[must_use]
-    pub fn at(&self, point: &SolutionPoint) -> f64 {
+    pub(crate) fn at(&self, point: &SolutionPoint) -> f64 {
         let value = || {
             let machine = self.cut.source(self.source, point.value).ok()?.machine().ok()?;
             machine_cycle_quantities(&machine, &point.cycle)?.value(&machine, &self.path).ok()

@@ -95,8 +95,7 @@ impl<'a> ResponseView<'a> {
     }
 
     /// Quantity number `k` of a motion.
-    #[must_use]
-    pub fn value(&self, row: &ResponseRow, k: usize) -> f64 {
+    pub(crate) fn value(&self, row: &ResponseRow, k: usize) -> f64 {
         let unit = self.units.map_or(1.0, |(units, vary)| units.at(vary, row.value).of_quantity(Quantity::ALL[k]));
         row.quantities[k] * unit
     }

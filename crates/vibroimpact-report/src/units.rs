@@ -59,8 +59,7 @@ impl Units {
 
     /// The units where a parameter has this value: the units of a body depend on its mass, its stiffness and all that
     /// drives it.
-    #[must_use]
-    pub fn at(&self, parameter: Parameter, value: f64) -> Self {
+    pub(crate) fn at(&self, parameter: Parameter, value: f64) -> Self {
         let (Parameter::Body(_), Some(body), true) = (parameter, self.body, self.si) else { return *self };
         let changed = body.with(parameter, value).and_then(|body| Ok((body, body.reduction()?)));
         // a value that gives no body has no result either
@@ -71,8 +70,7 @@ impl Units {
     }
 
     /// The units at a point of a plane of two parameters.
-    #[must_use]
-    pub fn at_both(&self, (p, q): (Parameter, Parameter), (x, y): (f64, f64)) -> Self {
+    pub(crate) fn at_both(&self, (p, q): (Parameter, Parameter), (x, y): (f64, f64)) -> Self {
         self.at(p, x).at(q, y)
     }
 
@@ -92,8 +90,7 @@ impl Units {
     }
 
     /// The units at point number `k` of the axes, the first of which varies fastest.
-    #[must_use]
-    pub fn at_point<V: Varied>(&self, axes: &[Axis<V>], k: usize) -> Self {
+    pub(crate) fn at_point<V: Varied>(&self, axes: &[Axis<V>], k: usize) -> Self {
         if self.body.is_none() { *self } else { units_over(self, axes, &Axis::at(axes, k as u64)) }
     }
 
@@ -174,8 +171,7 @@ impl Units {
     }
 
     /// The SI unit of a parameter; empty for a pure number and in nondimensional units.
-    #[must_use]
-    pub const fn unit_of(&self, parameter: Parameter) -> &'static str {
+    pub(crate) const fn unit_of(&self, parameter: Parameter) -> &'static str {
         match parameter {
             Parameter::Beta if self.si && self.hertz => "Hz",
             Parameter::Body(number) => number.unit(),
@@ -185,8 +181,7 @@ impl Units {
     }
 
     /// The name of a parameter in JSON.
-    #[must_use]
-    pub const fn name_of(&self, parameter: Parameter) -> &'static str {
+    pub(crate) const fn name_of(&self, parameter: Parameter) -> &'static str {
         match parameter {
             Parameter::Beta if self.si && self.hertz => "frequency_hz",
             _ => parameter.name(),
@@ -224,8 +219,7 @@ impl Units {
     }
 
     /// The name of the column of a parameter, which ends in its unit if it has one.
-    #[must_use]
-    pub const fn column_of(&self, parameter: Parameter) -> &'static str {
+    pub(crate) const fn column_of(&self, parameter: Parameter) -> &'static str {
         match parameter {
             Parameter::Gap if self.si => "gap_m",
             Parameter::SecondGap if self.si => "second_gap_m",
@@ -269,9 +263,6 @@ pub(crate) fn shown(values: &Values, unit: f64) -> Result<Values, PlanError> {
 }
 
 /// A range in another unit, as for [`shown`].
-///
-/// # Errors
-/// As [`shown`].
 pub(crate) fn shown_span(span: &Span, unit: f64) -> Result<Span, PlanError> {
     let ((first, last), count) = (span.ends(), span.count());
     let (first, last) = (given(first, unit), given(last, unit));

@@ -46,9 +46,6 @@ pub fn shares(found: &[(String, f64)], title: String) -> Figure {
 }
 
 /// The change of each number to its nearest events, in units of its scale, and the size of the box in which the motion was found.
-///
-/// # Errors
-/// [`ReportError::NoMargins`] for a motion without a branch.
 pub(crate) fn margins<S: System + Stops, V: Varied, P: Solution<System = S>>(
     found: &MotionMargins<S, V, P>,
     (system, units): (&S, &Units),

@@ -46,9 +46,6 @@ pub(crate) struct Picture<'a, V, S> {
 }
 
 /// The figure of `vibro branch`: branches along a line, with the orbit diagram from simulation behind.
-///
-/// # Errors
-/// [`ReportError::Plan`] if a value of the parameter overflows in these units.
 pub(crate) fn figure<V: Varied, S: ShownValue>(
     branches: &[BranchObject<'_>],
     picture: &Picture<'_, V, S>,

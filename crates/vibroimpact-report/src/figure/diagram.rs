@@ -85,9 +85,6 @@ pub fn draw(
 }
 
 /// All dots of a diagram in one colour, to be drawn behind curves. Dots of motions that repeat are wider than a curve.
-///
-/// # Errors
-/// [`ReportError::Plan`] if a value of the parameter overflows in these units.
 pub(super) fn backdrop<V: Varied, S: ShownValue>(
     found: &Diagram<V, S>,
     units: &Units,

@@ -29,7 +29,7 @@ pub struct LabelledCells {
 
 impl LabelledCells {
     /// Adds a point with the labels and shares of its motions.
-    pub fn push<'a>(&mut self, labels: impl Iterator<Item = (Cow<'a, str>, f64)>) {
+    pub(crate) fn push<'a>(&mut self, labels: impl Iterator<Item = (Cow<'a, str>, f64)>) {
         let mut cell: Vec<(usize, f64)> = Vec::new();
         for (label, share) in labels {
             let class = self.numbers.get(&*label).copied().unwrap_or_else(|| {

@@ -40,8 +40,7 @@ pub fn title(asked: &Asked) -> String {
 }
 
 /// The title without the parameters that vary in the figure.
-#[must_use]
-pub fn title_without(Asked { system, units }: &Asked, varied: &[Parameter]) -> String {
+pub(crate) fn title_without(Asked { system, units }: &Asked, varied: &[Parameter]) -> String {
     let frequency = match (system.inverse_beta, system.beta) {
         (Some(inverse), _) => (Parameter::InverseBeta, inverse),
         (None, beta) => (Parameter::Beta, beta.unwrap_or(f64::NAN)),
@@ -90,8 +89,7 @@ fn same_in_title(varied: Parameter, number: Parameter) -> bool {
 }
 
 /// The name of an axis along a line: the first number, and the range of the second one.
-#[must_use]
-pub fn along<V: Varied>(cut: &Cut<V>, units: &Units) -> String {
+pub(crate) fn along<V: Varied>(cut: &Cut<V>, units: &Units) -> String {
     let name = cut.vary.axis(units);
     let Some(also) = &cut.also else { return name };
     // the axis rises, in whichever direction the line is followed
@@ -101,8 +99,7 @@ pub fn along<V: Varied>(cut: &Cut<V>, units: &Units) -> String {
 }
 
 /// The symbol of a parameter, as markup.
-#[must_use]
-pub const fn symbol(parameter: Parameter) -> &'static str {
+pub(crate) const fn symbol(parameter: Parameter) -> &'static str {
     match parameter {
         Parameter::Beta => "*β*",
         Parameter::InverseBeta => "1/*β*",
@@ -128,8 +125,7 @@ pub fn named(parameter: Parameter, units: &Units) -> String {
 }
 
 /// A quantity in words with its unit, for an axis.
-#[must_use]
-pub fn quantity_name(quantity: Quantity, units: &Units) -> String {
+pub(crate) fn quantity_name(quantity: Quantity, units: &Units) -> String {
     match quantity.kind().unit() {
         "" => quantity.description().to_owned(),
         unit => units.named(quantity.description(), unit),
@@ -137,8 +133,7 @@ pub fn quantity_name(quantity: Quantity, units: &Units) -> String {
 }
 
 /// The text of a label in a figure.
-#[must_use]
-pub fn label(label: &str) -> String {
+pub(crate) fn label(label: &str) -> String {
     match label {
         "0" => "no impact".into(),
         label => plain(label).replace("inf", "∞"),
@@ -158,8 +153,7 @@ pub(crate) fn series(k: usize) -> Colour {
 
 /// Variant number `k` of a colour, for the motions of one class: the colour itself, darker, lighter, darker still, and
 /// so on.
-#[must_use]
-pub fn variant(colour: Colour, k: usize) -> Colour {
+pub(crate) fn variant(colour: Colour, k: usize) -> Colour {
     let towards = if k % 2 == 1 { 0.0 } else { 255.0 };
     #[allow(clippy::cast_precision_loss)] // a handful
     let part = if k == 0 { 0.0 } else { 1.0 - 0.6_f64.powi(i32::try_from(k.div_ceil(2)).unwrap_or(9)) };

@@ -85,8 +85,7 @@ impl PlaneAxis {
     }
 
     /// The number of values.
-    #[must_use]
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.values.count()
     }
 
@@ -96,8 +95,7 @@ impl PlaneAxis {
     }
 
     /// The first and the last value, if the values are evenly spaced.
-    #[must_use]
-    pub fn even(&self) -> Option<(f64, f64)> {
+    pub(crate) fn even(&self) -> Option<(f64, f64)> {
         match &self.values {
             Values::Span(span) if !span.is_logarithmic() => Some(span.ends()),
             _ => None,
@@ -109,8 +107,7 @@ impl PlaneAxis {
     }
 
     /// The edges of the cell around value number `k`.
-    #[must_use]
-    pub fn cell(&self, k: usize) -> (f64, f64) {
+    pub(crate) fn cell(&self, k: usize) -> (f64, f64) {
         let at = |k: usize| self.values.at(k);
         let (here, last) = (at(k), self.count() - 1);
         let between = |a: f64, b: f64| if self.logarithmic() { (a * b).sqrt() } else { f64::midpoint(a, b) };
@@ -134,8 +131,7 @@ impl PlaneAxis {
     }
 
     /// An axis that shows the outermost cells completely.
-    #[must_use]
-    pub fn axis(&self) -> FigureAxis {
+    pub(crate) fn axis(&self) -> FigureAxis {
         let (low, high) = self.range();
         let axis = FigureAxis::new(self.name.clone()).range(low, high);
         if self.logarithmic() { axis.log10() } else { axis }

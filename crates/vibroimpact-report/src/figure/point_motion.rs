@@ -38,7 +38,7 @@ pub struct PointMotions {
 
 impl PointMotions {
     /// The number of a label, which is added if it is new.
-    pub fn class(&mut self, label: &str) -> usize {
+    pub(crate) fn class(&mut self, label: &str) -> usize {
         self.numbers.get(label).copied().unwrap_or_else(|| {
             self.numbers.insert(label.to_owned(), self.labels.len());
             self.labels.push(label.to_owned());
@@ -47,8 +47,11 @@ impl PointMotions {
     }
 
     /// The motions of a map, with the values of a field of the plan in these units.
-    #[must_use]
-    pub fn of_map<V: Varied, F: FieldName>(found: &RegionMap<V, F>, field: Option<usize>, units: &Units) -> Self {
+    pub(crate) fn of_map<V: Varied, F: FieldName>(
+        found: &RegionMap<V, F>,
+        field: Option<usize>,
+        units: &Units,
+    ) -> Self {
         let mut all = Self::default();
         for (k, motions) in found.points.iter().enumerate() {
             let there = units_over(units, &found.axes, &Axis::at(&found.axes, k as u64));
@@ -64,8 +67,7 @@ impl PointMotions {
     }
 
     /// The numbers of the labels in the order of a legend.
-    #[must_use]
-    pub fn in_order(&self) -> Vec<usize> {
+    pub(crate) fn in_order(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.labels.len()).collect();
         sort_by_key(&mut order, |class| rank(&self.labels[*class]));
         order

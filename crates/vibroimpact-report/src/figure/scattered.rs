@@ -13,9 +13,6 @@ const LARGE: f64 = 8.0;
 const SMALL: f64 = 4.0;
 
 /// Draws the label of the motion at each point of a plan; a point without a motion is left out. A single number has no ordinate.
-///
-/// # Errors
-/// [`ReportError::Scattered`] if nothing varies.
 pub(crate) fn figure<'a, V: Varied + Into<Cow<'static, str>>>(
     points: &PointsPlan<V>,
     labels: impl Iterator<Item = Option<Cow<'a, str>>>,

@@ -36,8 +36,7 @@ fn shown(settled: &Settled) -> f64 {
 
 /// The part of a settled motion that the figure shows: its state after the last event of the transient, the time of
 /// that event, and the duration shown.
-#[must_use]
-pub fn steady(osc: &Oscillator, start: Start, settled: &Settled) -> (Start, (f64, f64)) {
+pub(crate) fn steady(osc: &Oscillator, start: Start, settled: &Settled) -> (Start, (f64, f64)) {
     let (from, time) = last_event(osc, start, settled.time);
     let span = shown(settled) * osc.period();
     let last = Motion::new(osc, from).take_while(|event| event.time <= span).nth(MOST_EVENTS);

@@ -62,9 +62,6 @@ pub fn phase_portrait(asked: &Asked, osc: &Oscillator, start: Start, (from, unti
 }
 
 /// Draws the motion of a machine from a state over a time.
-///
-/// # Errors
-/// [`ReportError`] for an invalid start.
 pub(crate) fn machine_portrait(
     machine: &Machine,
     (start, time): (&events::Start, f64),

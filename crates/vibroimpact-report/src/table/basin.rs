@@ -14,9 +14,6 @@ const ROW: usize = 64;
 
 /// The table of `vibro basin`: what varies, in the units and with exactly the numbers of the question, the label, what stops and events
 /// say more of it, and the quantities that the plan asks for; `refused` beyond a rigid stop.
-///
-/// # Errors
-/// [`PlanError`] if a value of an axis overflows in these units.
 pub(crate) fn table<'a, D: Told>(of: &'a AnswerOf<D>, found: &'a BasinOf<D>) -> Result<Table<'a>, PlanError> {
     let (axes, fields, units) = (&found.plan.axes, &found.plan.fields, &of.units);
     let remarks = remarks::<D>(found.motions.iter().map(|motion| &motion.verdict));

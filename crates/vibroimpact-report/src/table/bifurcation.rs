@@ -13,9 +13,6 @@ use vibroimpact_study::diagram::Diagram;
 /// which are empty for points from simulation. Of branches, `sweep` has the number, and `kind` is `stable`, `neutral` or `unstable`.
 /// There is one row for each closing or state of each point of a branch, or for the quantity that is shown. Solutions that are not
 /// admissible are left out.
-///
-/// # Errors
-/// [`PlanError`] if a value of the parameter overflows in these units.
 pub(crate) fn table<V: Varied, S: ShownValue>(
     (behind, units): (&Diagram<V, S>, &Units),
     system: &impl Stops,

@@ -37,8 +37,7 @@ pub fn table<'a, V: Varied, S: ShownValue>(
 }
 
 /// The columns of the table.
-#[must_use]
-pub fn columns<V: Varied, S: ShownValue>(found: &Diagram<V, S>, units: &Units) -> Vec<String> {
+pub(crate) fn columns<V: Varied, S: ShownValue>(found: &Diagram<V, S>, units: &Units) -> Vec<String> {
     let cut = found.plan.cut();
     let varied = cut.names().map(|number| number.column(units).to_owned());
     varied.chain(["sweep", "kind"].map(str::to_owned)).chain(found.plan.show.columns(units)).collect()

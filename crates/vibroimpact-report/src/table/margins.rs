@@ -12,7 +12,6 @@ use vibroimpact_study::{MotionMargins, Solution};
 const HEADER: &str = "parameter,value,direction,limit,at,distance,relative,event,before,after";
 
 /// The table of `vibro margins`.
-#[must_use]
 pub(crate) fn table<'a, S: System + Stops, V: Varied, P: Solution<System = S>>(
     found: &'a MotionMargins<S, V, P>,
     system: &'a S,

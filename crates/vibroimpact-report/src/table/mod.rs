@@ -40,8 +40,7 @@ pub struct Table<'a> {
 
 impl<'a> Table<'a> {
     /// The same table with its rows in memory, for data that are dropped before the table.
-    #[must_use]
-    pub fn kept(self) -> Table<'static> {
+    pub(crate) fn kept(self) -> Table<'static> {
         let rows: Vec<String> = self.rows.collect();
         Table { header: self.header, rows: Box::new(rows.into_iter()) }
     }

@@ -55,19 +55,18 @@ pub fn table(
 
 /// The table of `vibro settle`: the settled motion, from its last event before it was recognised, for the duration
 /// shown in the figure.
-///
-/// # Errors
-/// [`ReportError::Points`] for more than ten million points.
-pub fn steady(osc: &Oscillator, start: Start, settled: &Settled, units: Units) -> Result<Table<'static>, ReportError> {
+pub(crate) fn steady(
+    osc: &Oscillator,
+    start: Start,
+    settled: &Settled,
+    units: Units,
+) -> Result<Table<'static>, ReportError> {
     let (from, (_, shown)) = figure::settle::steady(osc, start, settled);
     table(osc, from, (shown, osc.period() / 100.0), units)
 }
 
 /// The samples of a motion until a time, at equal steps, at its events and at the end.
-///
-/// # Errors
-/// [`ReportError::Points`] for more than ten million points, [`ReportError::Plan`] for an invalid start.
-pub fn samples<'a>(
+pub(crate) fn samples<'a>(
     machine: &'a Machine,
     start: &events::Start,
     (until, step): (f64, f64),
@@ -86,7 +85,7 @@ fn refused(error: MachineError) -> ReportError {
 /// event, the last column has the digits that the others leave out, as an object in JSON.
 ///
 /// # Errors
-/// As [`samples`].
+/// [`ReportError::Points`] for more than ten million points, [`ReportError::Plan`] for an invalid start.
 pub fn of_machine<'a>(machine: &'a Machine, start: &events::Start, span: (f64, f64)) -> Result<Table<'a>, ReportError> {
     let (surfaces, forced) = (recovering(machine), machine.parts().frequency.is_some());
     let samples = samples(machine, start, span)?;
@@ -123,8 +122,7 @@ pub fn of_machine<'a>(machine: &'a Machine, start: &events::Start, span: (f64, f
 }
 
 /// The names of the columns.
-#[must_use]
-pub fn columns_of_machine(machine: &Machine) -> Vec<String> {
+pub(crate) fn columns_of_machine(machine: &Machine) -> Vec<String> {
     let coordinates = |what: &'static str| machine.parts().coordinates.iter().map(move |name| format!("{what}.{name}"));
     let gaps = machine.stops().iter().map(|stop| format!("gap.{}", stop.name));
     let contacts = machine.stops().len() + machine.joints().len();

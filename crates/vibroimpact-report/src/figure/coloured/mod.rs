@@ -16,10 +16,7 @@ use vibroimpact_plot::Figure;
 use vibroimpact_study::{Basin, Name, RegionMap};
 
 /// The figure of `vibro map --colour`: a plane, or dots over one axis.
-///
-/// # Errors
-/// [`ReportError::NoField`] if the plan does not ask for the quantity, and the errors of [`figure::map`](crate::figure::map).
-pub fn of_map<V: Varied, F: FieldName>(
+pub(crate) fn of_map<V: Varied, F: FieldName>(
     found: &RegionMap<V, F>,
     coloured: &Coloured,
     units: &Units,
@@ -54,10 +51,7 @@ pub fn of_points(
 
 /// The figure of `vibro basin --colour`: each start in the colour of the quantity of the motion to which it leads, or dots
 /// over one axis.
-///
-/// # Errors
-/// As [`of_map`].
-pub fn of_basin<S: System, V: Varied, F: FieldName>(
+pub(crate) fn of_basin<S: System, V: Varied, F: FieldName>(
     found: &Basin<S, V, F>,
     coloured: &Coloured,
     units: &Units,
@@ -78,10 +72,7 @@ pub fn of_basin<S: System, V: Varied, F: FieldName>(
 }
 
 /// The place of a field among those of a plan.
-///
-/// # Errors
-/// [`ReportError::NoField`] if it is not there.
-pub fn place<F: Name>(fields: &[F], name: &str) -> Result<usize, ReportError> {
+pub(crate) fn place<F: Name>(fields: &[F], name: &str) -> Result<usize, ReportError> {
     let no_field = || {
         let there = fields.iter().map(|field| field.text().to_owned()).collect();
         ReportError::NoField { field: name.to_owned(), there }

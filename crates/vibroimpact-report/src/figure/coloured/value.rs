@@ -53,8 +53,7 @@ impl Value {
     }
 
     /// The finite number, if it is one.
-    #[must_use]
-    pub const fn finite(self) -> Option<f64> {
+    pub(crate) const fn finite(self) -> Option<f64> {
         if let Self::Finite(number) = self { Some(number) } else { None }
     }
 
@@ -96,8 +95,7 @@ impl Of {
 
     /// The value that is shown of the motions at a point, the most frequent one first. Motions without a value are passed
     /// over if another motion has one, except by [`Of::Likeliest`].
-    #[must_use]
-    pub fn among(self, mut values: impl Iterator<Item = Value>) -> Value {
+    pub(crate) fn among(self, mut values: impl Iterator<Item = Value>) -> Value {
         if self == Self::Likeliest {
             return values.next().unwrap_or(Value::NotComputed);
         }
@@ -114,8 +112,7 @@ impl Of {
     }
 
     /// The sentence of the figure that says what is shown.
-    #[must_use]
-    pub const fn sentence(self) -> &'static str {
+    pub(crate) const fn sentence(self) -> &'static str {
         match self {
             Self::Largest => "where motions coexist: the largest value",
             Self::Smallest => "where motions coexist: the smallest value",

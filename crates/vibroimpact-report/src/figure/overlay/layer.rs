@@ -38,8 +38,7 @@ impl Layer {
     }
 
     /// Whether it shows the motions in the cells and not something over them.
-    #[must_use]
-    pub const fn of_motions(self) -> bool {
+    pub(crate) const fn of_motions(self) -> bool {
         matches!(self, Self::Stripes | Self::Boundaries)
     }
 }

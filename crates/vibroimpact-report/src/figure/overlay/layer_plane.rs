@@ -74,8 +74,7 @@ impl LayerPlane {
     }
 
     /// Whether a gap is on an axis.
-    #[must_use]
-    pub fn has_gap(&self) -> bool {
+    pub(crate) fn has_gap(&self) -> bool {
         self.gap().is_some()
     }
 

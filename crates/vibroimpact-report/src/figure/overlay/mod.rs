@@ -36,8 +36,7 @@ impl Default for Overlay {
 
 impl Overlay {
     /// Whether a layer is on.
-    #[must_use]
-    pub fn has(&self, layer: Layer) -> bool {
+    pub(crate) fn has(&self, layer: Layer) -> bool {
         self.layers.contains(&layer)
     }
 
@@ -48,8 +47,7 @@ impl Overlay {
     }
 
     /// Whether coexisting motions are stripes, and whether lines are drawn between cells with different motions.
-    #[must_use]
-    pub fn cells(&self) -> (bool, bool) {
+    pub(crate) fn cells(&self) -> (bool, bool) {
         (self.has(Layer::Stripes), self.has(Layer::Boundaries))
     }
 
@@ -68,10 +66,7 @@ impl Overlay {
     }
 
     /// The same without what the figure of a plan does not show, with the layers in the order of [`Layer::ALL`].
-    ///
-    /// # Errors
-    /// [`PlanError`] for an invalid plan.
-    pub fn visible(&self, plan: &Plan, coloured: bool) -> Result<Self, PlanError> {
+    pub(crate) fn visible(&self, plan: &Plan, coloured: bool) -> Result<Self, PlanError> {
         let Some(map) = OfMap::new(plan)? else {
             let layers = if coloured { Vec::new() } else { Self::default().layers };
             return Ok(Self { layers, ..Self::default() });
@@ -88,10 +83,7 @@ impl Overlay {
     }
 
     /// Draws everything over the cells into the figure of a map. Figures of other plans stay as they are.
-    ///
-    /// # Errors
-    /// [`AnswerError`] for an invalid plan or plane, or when stopped.
-    pub fn add(&self, figure: &mut Figure, plan: &Plan, control: &Control<'_>) -> Result<(), AnswerError> {
+    pub(crate) fn add(&self, figure: &mut Figure, plan: &Plan, control: &Control<'_>) -> Result<(), AnswerError> {
         let over = self.layers.iter().any(|layer| !layer.of_motions()) || self.mark.is_some() || self.line.is_some();
         let (true, Some(panel)) = (over, figure.panels.first_mut()) else { return Ok(()) };
         let Some(map) = OfMap::new(plan)? else { return Ok(()) };
