@@ -156,25 +156,22 @@ fn of_a_machine_in_its_units() {
 /// The command line for a panel of the page draws exactly the figure of that panel.
 #[test]
 fn f10_the_command_of_a_view_draws_that_view() {
-    use vibroimpact::verdict::{SettleOptions, settle};
     use vibroimpact_report::question::shell_line_showing;
-    use vibroimpact_report::scene::{View, Viewed};
-    use vibroimpact_report::{Asked, Units};
+    use vibroimpact_report::scene::View;
+    use vibroimpact_report::{Shown, Units, answer};
+    use vibroimpact_study::Control;
     let plan = plan(
         &json!({ "inverse_beta": 1.3, "gap": 0.75, "restitution": 0.5 }),
         &json!({ "settle": { "start": { "v": 1.0 } } }),
     );
-    let system = *plan.oscillator().expect("an oscillator");
-    let (asked, osc) = (Asked { system, units: Units::default() }, system.oscillator().expect("a system"));
-    let start = vibroimpact::Start { v: 1.0, ..vibroimpact::Start::at_rest(&osc) };
-    let settled = settle(&osc, start, &SettleOptions::default());
+    let answer = answer(&plan, Units::default(), &Control::default()).expect("an answer");
     for view in View::ALL {
         let line = shell_line_showing(&plan, view).expect("a command says it");
         let folder = tempfile::tempdir().expect("a folder");
         crate::vibro(line.strip_prefix("vibro ").expect("it is vibro")).current_dir(&folder).assert().success();
         let drawn = std::fs::read_to_string(folder.path().join(format!("{}.svg", view.name()))).expect("the picture");
-        let shown = Viewed::new(view, (&osc, start), &settled, &asked).expect("it has this view").figure();
-        assert_eq!(drawn, shown.to_svg(), "{line}");
+        let shown = answer.figure(&Shown { view: Some(view), ..Shown::default() }, &Control::default());
+        assert_eq!(drawn, shown.expect("a figure").expect("it has this view").to_svg(), "{line}");
     }
     let chaos = "settle --inverse-beta 1.11 --gap 3 --restitution 0.5 --show multipliers --plot none.svg";
     let folder = tempfile::tempdir().expect("a folder");

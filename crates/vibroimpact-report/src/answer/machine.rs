@@ -183,15 +183,11 @@ impl Told for MachineSource {
         found: &'a Settled<Machine>,
         view: View,
     ) -> Result<Table<'a>, ReportError> {
-        match (view, &found.verdict) {
-            (View::Waveform | View::Phase, verdict) => {
-                let (from, time) = of.steady(verdict)?;
-                let step = of.system.period().unwrap_or(time) / 100.0;
-                Self::waveform_table(of, &from, (time, step))
-            }
-            (View::Multipliers, Verdict::Periodic(cycle)) => Ok(table::multipliers(&cycle.multipliers)),
-            (View::Multipliers, other) => Err(ReportError::NoMultipliers(other.label().into_owned())),
-            (View::Sections, _) => Err(ReportError::MachineSections),
+        if view == View::Sections {
+            return Err(ReportError::MachineSections);
         }
+        let (from, time) = of.steady(&found.verdict)?;
+        let step = of.system.period().unwrap_or(time) / 100.0;
+        Self::waveform_table(of, &from, (time, step))
     }
 }

@@ -17,7 +17,8 @@ use crate::json::orbit::OrbitAnswer;
 use crate::scene::View;
 use crate::{AnswerError, ReportError, Table, Units, table};
 use serde::Serialize;
-use vibroimpact::verdict::{CountedMotion, PaperRule, PaperVerdict};
+use vibroimpact::math::Multiplier;
+use vibroimpact::verdict::{CountedMotion, PaperRule, PaperVerdict, Verdict};
 use vibroimpact_plot::{Figure, plain};
 use vibroimpact_study::diagram::{Diagram, ShowText};
 use vibroimpact_study::machine::MachineSource;
@@ -299,6 +300,12 @@ impl<D: Told> AnswerOf<D> {
         Ok(if let Some(Results::Diagram(found)) = found { Some(found) } else { None })
     }
 
+    /// The multipliers of a settled motion.
+    fn multipliers(&self, verdict: &Verdict<D::System>) -> Result<Vec<Multiplier>, ReportError> {
+        let all = D::multipliers(self, verdict);
+        if all.is_empty() { Err(ReportError::NoMultipliers(verdict.label().into_owned())) } else { Ok(all) }
+    }
+
     /// The line of its branches.
     ///
     /// # Errors
@@ -356,6 +363,9 @@ impl<D: Told> AnswerOf<D> {
                 let until = found.shown_until;
                 let step = shown.step.unwrap_or_else(|| D::period(self).unwrap_or(0.1 * until) / 100.0);
                 D::waveform_table(self, &self.start, (until, step))?
+            }
+            Results::Settle(found) if view == View::Multipliers => {
+                table::multipliers(self.multipliers(&found.verdict)?)
             }
             Results::Settle(found) => D::settled_table(self, found, view)?,
             Results::Attractors(found) => table::attractors::table(self, found),

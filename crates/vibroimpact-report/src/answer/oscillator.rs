@@ -14,10 +14,10 @@ use crate::json::settle::SettleAnswer;
 use crate::json::simulate::Events;
 use crate::json::system::SystemObject;
 use crate::response::ResponseView;
-use crate::scene::{View, Viewed, phase_portrait};
+use crate::scene::{self, SECTION_POINTS, View, phase_portrait};
 use crate::{AnswerError, Asked, ReportError, ShownValue as _, Table, Units, figure, table};
 use vibroimpact::Start;
-use vibroimpact::chaos::Exponents;
+use vibroimpact::chaos::{self, Exponents};
 use vibroimpact::continuation::{CurvePoint, SolutionPoint};
 use vibroimpact::math::Multiplier;
 use vibroimpact::verdict::{Settled, Verdict};
@@ -28,11 +28,21 @@ use vibroimpact_study::{
     SystemPlan, Task,
 };
 
+/// Number of impacts and forcing periods after a motion has settled and before the points of its sections, so that the rest of the
+/// transient is not visible.
+const TRANSIENT: u64 = 200;
+
 impl AnswerOf<SystemPlan> {
     /// The system, and the units of all reported values.
     #[must_use]
     pub const fn asked(&self) -> Asked {
         Asked { system: self.written, units: self.units }
+    }
+
+    /// Both sections of a settled motion: a few dots for a cycle, a cloud for chaos.
+    fn sections(&self, settled: &Settled) -> SectionPoints {
+        let (from, _) = figure::settle::last_event(&self.system, self.start, settled.time);
+        SectionPoints::of_oscillator(&self.system, &chaos::section(&self.system, from, TRANSIENT, SECTION_POINTS))
     }
 }
 
@@ -144,7 +154,19 @@ impl Told for SystemPlan {
     }
 
     fn settled_figure(of: &AnswerOf<Self>, found: &Settled, view: View) -> Result<Figure, AnswerError> {
-        Ok(Viewed::new(view, (&of.system, of.start), found, &of.asked())?.figure())
+        let (osc, start, asked) = (&of.system, of.start, &of.asked());
+        Ok(match view {
+            View::Waveform => figure::settle::figure(osc, start, found, asked),
+            View::Phase => {
+                let (_, (from, shown)) = figure::settle::steady(osc, start, found);
+                phase_portrait(asked, osc, start, (from, from + shown))
+            }
+            View::Multipliers => {
+                let each = found.verdict.stabilities(osc).unwrap_or_default();
+                scene::multipliers(&of.multipliers(&found.verdict)?, &each)
+            }
+            View::Sections => figure::section::figure(&of.sections(found), osc, asked),
+        })
     }
 
     fn section_figure(of: &AnswerOf<Self>, _: &Exponents, points: &SectionPoints) -> Figure {
@@ -156,12 +178,16 @@ impl Told for SystemPlan {
     }
 
     fn settled_table<'a>(of: &'a AnswerOf<Self>, found: &'a Settled, view: View) -> Result<Table<'a>, ReportError> {
-        Ok(Viewed::new(view, (&of.system, of.start), found, &of.asked())?.table()?.kept())
+        if view == View::Sections {
+            return Ok(table::section::table(&of.sections(found), &of.system, &of.units.states(), of.units).kept());
+        }
+        table::waveform::steady(&of.system, of.start, found, of.units)
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use crate::scene::View;
     use crate::{Answer, AnswerError, ReportError, Shown, Units, answer};
     use core::sync::atomic::AtomicBool;
     use core::sync::atomic::Ordering;
@@ -174,6 +200,26 @@ mod tests {
         const fn sends<T: Send + Sync + 'static>() {}
         sends::<Answer>();
         sends::<AnswerError>();
+    }
+
+    #[test]
+    fn f10_each_view_has_a_figure_and_a_table_of_its_own() {
+        let (control, task) = (Control::default(), Task::Settle { start: Some(StartPlan::default()), impacts: None });
+        let answer = answer(&Plan::new(S, task), Units::default(), &control).unwrap();
+        let shown = View::ALL.map(|view| {
+            let (options, mut text) = (Shown { view: Some(view), ..Shown::default() }, Vec::new());
+            answer.table(&options).unwrap().unwrap().write(&mut text).unwrap();
+            let figure = answer.figure(&options, &control).unwrap().unwrap();
+            (figure.to_svg(), String::from_utf8(text).unwrap())
+        });
+        for (k, (word, (svg, _))) in ["τ", "velocity ", "Re ", "states at phase 0"].iter().zip(&shown).enumerate() {
+            assert!(svg.contains(word), "{k} {word}");
+            assert!(shown.iter().enumerate().all(|(j, other)| j == k || other.0 != *svg), "{k}");
+        }
+        let heads = shown.each_ref().map(|(_, table)| table.lines().next().unwrap());
+        assert_eq!(heads, ["time,x,v,phase", "time,x,v,phase", "re,im", "section,stop,phase,speed,x,v"]);
+        assert_eq!(shown[2].1.lines().count(), 3, "{}", shown[2].1);
+        assert_eq!(shown[3].1.lines().count(), 1 + 2 * 2000);
     }
 
     #[test]

@@ -154,7 +154,7 @@ pub trait Told:
         span: (f64, f64),
     ) -> Result<Table<'a>, ReportError>;
 
-    /// The table of a settled motion.
+    /// The table of a settled motion, but not that of its multipliers.
     fn settled_table<'a>(
         of: &'a AnswerOf<Self>,
         found: &'a Settled<Self::System>,

@@ -7,7 +7,6 @@ mod bifurcation;
 mod multipliers;
 mod phase;
 mod sampled_motion;
-mod sections;
 mod view;
 
 pub(crate) use bifurcation::strobes;
@@ -16,4 +15,4 @@ pub use multipliers::multipliers;
 pub(crate) use phase::machine_portrait;
 pub use phase::phase_portrait;
 pub use sampled_motion::SampledMotion;
-pub use view::{SECTION_POINTS, View, Viewed};
+pub use view::{SECTION_POINTS, View};

@@ -25,9 +25,9 @@ use std::io::{self, Write};
 use vibroimpact::math::Multiplier;
 
 /// The multipliers of a cycle, one row each.
-pub(crate) fn multipliers(all: &[Multiplier]) -> Table<'_> {
-    let row = |m: &Multiplier| format!("{},{}", Number(m.re), Number(m.im));
-    Table::new("re,im".to_owned(), all.iter().map(row))
+pub(crate) fn multipliers(all: Vec<Multiplier>) -> Table<'static> {
+    let row = |m: Multiplier| format!("{},{}", Number(m.re), Number(m.im));
+    Table::new("re,im".to_owned(), all.into_iter().map(row))
 }
 
 /// A table whose rows are made one by one.
