@@ -1,7 +1,7 @@
 //! The units of lengths, velocities and times in results.
 
 use crate::number::short;
-use crate::varied::{Varied, units_over};
+use crate::varied::Varied;
 use vibroimpact::quantities::{Quantities, Quantity};
 use vibroimpact::{QuantityKind, Scales};
 use vibroimpact_study::{
@@ -69,18 +69,10 @@ impl Units {
         })
     }
 
-    /// The units at a point of a plane of two parameters.
-    pub(crate) fn at_both(&self, (p, q): (Parameter, Parameter), (x, y): (f64, f64)) -> Self {
-        self.at(p, x).at(q, y)
-    }
-
     /// The units at a point of the axes; `value(k)` is the value of axis `k`.
     #[must_use]
-    pub fn over(&self, axes: &[Axis], value: impl Fn(usize) -> f64) -> Self {
-        axes.iter().enumerate().fold(*self, |units, (k, axis)| match axis.vary {
-            Coordinate::Parameter(parameter) => units.at(parameter, value(k)),
-            _ => units,
-        })
+    pub fn over<V: Varied>(&self, axes: &[Axis<V>], value: impl Fn(usize) -> f64) -> Self {
+        axes.iter().enumerate().fold(*self, |units, (k, axis)| axis.vary.units_at(&units, value(k)))
     }
 
     /// These units as a part of a plan; `None` for nondimensional results.
@@ -91,7 +83,8 @@ impl Units {
 
     /// The units at point number `k` of the axes, the first of which varies fastest.
     pub(crate) fn at_point<V: Varied>(&self, axes: &[Axis<V>], k: usize) -> Self {
-        if self.body.is_none() { *self } else { units_over(self, axes, &Axis::at(axes, k as u64)) }
+        let values = if self.body.is_none() { return *self } else { Axis::at(axes, k as u64) };
+        self.over(axes, |k| values[k])
     }
 
     fn factor(&self, of: impl Fn(&Scales) -> f64) -> f64 {

@@ -6,7 +6,7 @@ use crate::figure::{named, quantity_name, symbol};
 use vibroimpact::QuantityKind;
 use vibroimpact_plot::plain;
 use vibroimpact_study::diagram::{Show, Shown};
-use vibroimpact_study::{Axis, Coordinate, Name, Parameter, Quantity};
+use vibroimpact_study::{Coordinate, Name, Parameter, Quantity};
 
 /// What varies in a plan: a parameter, a coordinate of the start, or the path of a number of a machine.
 pub trait Varied: Name {
@@ -142,11 +142,6 @@ impl Varied for String {
     fn units_at(&self, units: &Units, _: f64) -> Units {
         *units
     }
-}
-
-/// The units at a point of some axes, given its values.
-pub(crate) fn units_over<V: Varied>(units: &Units, axes: &[Axis<V>], values: &[f64]) -> Units {
-    axes.iter().zip(values).fold(*units, |units, (axis, value)| axis.vary.units_at(&units, *value))
 }
 
 /// A quantity of a motion that a plan asks for: of an oscillator, or by its path.

@@ -1,12 +1,11 @@
 //! The motions at points, as figures need them: the label, the share, and the value of a quantity; and the legend of labels.
 
 use crate::figure::coloured::Value;
-use crate::varied::units_over;
 use crate::{FieldName, Units, Varied, figure};
 use std::collections::BTreeMap;
 use vibroimpact::math::sort_by_key;
 use vibroimpact_plot::{Entry, GROUPS, Key, Legend, legend_group, legend_text, unforced};
-use vibroimpact_study::{Axis, RegionMap, Share};
+use vibroimpact_study::{RegionMap, Share};
 
 /// Maximum number of labels with an entry of their own in a legend; if there are more, their groups have entries.
 const NAMED: usize = 14;
@@ -54,7 +53,7 @@ impl PointMotions {
     ) -> Self {
         let mut all = Self::default();
         for (k, motions) in found.points.iter().enumerate() {
-            let there = units_over(units, &found.axes, &Axis::at(&found.axes, k as u64));
+            let there = units.at_point(&found.axes, k);
             let motion = |motion: &Share| {
                 let value = |field: usize| Some(motion.quantities.get(field)? * found.fields[field].unit(&there));
                 let value = Value::of(&motion.label, field.and_then(value));

@@ -122,7 +122,7 @@ impl<'a> CurveAnswer<'a> {
 impl<'a> PointObject<'a> {
     pub(crate) fn of_oscillator(point: &CurvePoint, plan: &CurvePlan, Asked { system, units }: &Asked) -> Self {
         let (of, (p, q)) = ([plan.vary.parameter, plan.and.parameter], point.values);
-        let there = units.at_both((of[0], of[1]), point.values);
+        let there = units.at(of[0], p).at(of[1], q);
         let osc = system.with_all(of.into_iter().zip([p, q]));
         let osc = osc.and_then(|system| system.oscillator()).ok();
         let periods = f64::from(point.cycle.label.periods);

@@ -4,17 +4,15 @@ use super::event::{StateObject, Stops};
 use super::system::SystemObject;
 use super::{AxisObject, Document};
 use crate::units::shown;
-use crate::varied::units_over;
 use crate::{Asked, FieldName, PROGRAM, Units, Varied};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use vibroimpact::Start;
-use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::{GROUPS, legend_group};
 use vibroimpact_study::{
-    Axis, BasinPlan, Coordinate, Parameter, Plan, PlanError, PointsPlan, RegionMap, Share, SystemPlan, Values,
+    Axis, BasinPlan, Coordinate, ListedColumn, Parameter, Plan, PlanError, PointsPlan, RegionMap, Share, SystemPlan,
 };
 
 /// The answer to `vibro map`, and to `vibro settle-many`, whose points are on no axes.
@@ -90,7 +88,9 @@ impl MapAnswer {
                 let value = column.values[k] * column.vary.unit(units);
                 at.insert(column.vary.field(units).to_owned(), value.into());
             }
-            let there = units_over(units, &found.axes, &Axis::at(&found.axes, k as u64));
+            let columns = found.columns.iter();
+            let there = columns
+                .fold(units.at_point(&found.axes, k), |units, column| column.vary.units_at(&units, column.values[k]));
             let share = |motion: &Share| ShareObject {
                 label: motion.label.clone().into_owned(),
                 share: motion.share,
@@ -129,34 +129,24 @@ pub fn of_points<'a>(
     let (units, osc) = (Units::of_plan(plan), system.oscillator()?);
     let asked = Asked { system: *system, units };
     let varied: Vec<Coordinate> = points.varied().collect();
-    let columns: Vec<Axis> = varied.iter().map(|vary| Axis::new(*vary, Values::Listed(Vec::new()))).collect();
-    let point = |(k, label): (usize, &Option<String>)| {
-        let of = |(column, vary): (usize, &Coordinate)| {
-            let value = points.at(column, k) * units.of_coordinate(*vary);
-            (vary.field(&units).to_owned(), value.into())
-        };
-        let there = units.over(&columns, |column| points.at(column, k));
-        let quantity = |(field, values): (&Quantity, &Vec<f64>)| {
-            (field.name().to_owned(), (values[k] * there.of_quantity(*field)).into())
-        };
-        let motion = label.as_ref().map(|label| ShareObject {
-            label: label.clone(),
-            share: 1.0,
-            stops: Vec::new(),
-            seen_events: None,
-            quantities: task.fields.iter().zip(values).map(quantity).collect(),
-        });
-        PointObject { at: varied.iter().enumerate().map(of).collect(), motions: motion.into_iter().collect() }
+    let column = |(column, vary): (usize, &Coordinate)| ListedColumn {
+        vary: *vary,
+        values: (0..labels.len()).map(|k| points.at(column, k)).collect(),
     };
-    let answer = MapAnswer {
+    let share = |k: usize, label: &String| Share {
+        label: label.clone().into(),
+        share: 1.0,
+        quantities: values.iter().map(|values| values[k]).collect(),
+        ..Share::default()
+    };
+    let motions = labels.iter().enumerate().map(|(k, label)| label.iter().map(|label| share(k, label)).collect());
+    let found = RegionMap {
         axes: Vec::new(),
-        starts: 1,
-        seed: 0,
-        coexisting: 0,
-        seen_events: None,
-        labels: counted(labels.iter().map(|label| label.iter().map(|label| (label.clone(), 1.0)))),
-        points: labels.iter().enumerate().map(point).collect(),
+        columns: varied.iter().enumerate().map(column).collect(),
+        points: motions.collect(),
+        fields: task.fields.clone(),
     };
+    let answer = MapAnswer::new(&found, &osc, (1, 0), &units);
     let of_system =
         |vary: &Coordinate| if let Coordinate::Parameter(parameter) = vary { Some(*parameter) } else { None };
     let varied: Vec<Parameter> = varied.iter().filter_map(of_system).collect();
@@ -170,27 +160,26 @@ pub fn of_points<'a>(
 /// Labels in the order of a legend, then by name.
 #[must_use]
 pub fn counts<V, F>(found: &RegionMap<V, F>) -> Vec<LabelCount> {
-    let label = |motion: &Share| (motion.label.clone().into_owned(), motion.share);
-    counted(found.points.iter().map(|motions| motions.iter().map(label)))
-}
-
-/// The same of the labels and shares at all points.
-fn counted<P: Iterator<Item = (String, f64)>>(points: impl ExactSizeIterator<Item = P>) -> Vec<LabelCount> {
     #[allow(clippy::cast_precision_loss)] // at most 1e8
-    let all = points.len() as f64;
-    let mut counts: BTreeMap<(usize, String), (u64, f64)> = BTreeMap::new();
-    for point in points {
-        let mut here: Vec<String> = Vec::new();
-        for (label, share) in point {
-            let group = legend_group(&label);
+    let all = found.points.len() as f64;
+    let mut counts: BTreeMap<(usize, &str), (u64, f64)> = BTreeMap::new();
+    for point in &found.points {
+        let mut here: Vec<&str> = Vec::new();
+        for Share { label, share, .. } in point {
+            let group = legend_group(label);
             let rank = GROUPS.iter().position(|g| *g == group).unwrap_or(GROUPS.len());
-            let entry = counts.entry((rank, label.clone())).or_default();
+            let entry = counts.entry((rank, label)).or_default();
             entry.1 += share;
-            if !here.contains(&label) {
+            if !here.contains(&&**label) {
                 entry.0 += 1;
                 here.push(label);
             }
         }
     }
-    counts.into_iter().map(|((_, label), (points, share))| LabelCount { label, points, share: share / all }).collect()
+    let count = |((_, label), (points, share)): ((usize, &str), (u64, f64))| LabelCount {
+        label: label.to_owned(),
+        points,
+        share: share / all,
+    };
+    counts.into_iter().map(count).collect()
 }

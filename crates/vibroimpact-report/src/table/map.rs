@@ -6,9 +6,8 @@ use super::remarks::Remarks;
 use crate::json::event::Stops;
 use crate::number::Number;
 use crate::units::shown;
-use crate::varied::units_over;
 use crate::{FieldName, Units, Varied};
-use vibroimpact_study::{Axis, PlanError, RegionMap, Share};
+use vibroimpact_study::{PlanError, RegionMap, Share};
 
 /// The table of `vibro map`: what varies, in the units and with exactly the numbers of the question, the label, its share of the
 /// starts, and the quantities that the plan asks for; with `remarked` also what stops and events say more of the label. Of points
@@ -37,7 +36,7 @@ pub fn table<'a, V: Varied, F: FieldName>(
         for column in &found.columns {
             place.push_str(&format!("{},", Number(column.values[k] * column.vary.unit(&units))));
         }
-        let there = units_over(&units, axes, &Axis::at(axes, k as u64));
+        let there = units.at_point(axes, k);
         let row = |motion: &Share| {
             let share = if grid { format!(",{}", Number(motion.share)) } else { String::new() };
             let remarks = remarks.cells(system, &(motion.stops.clone(), motion.seen_events));

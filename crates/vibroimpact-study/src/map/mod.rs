@@ -18,7 +18,7 @@ use vibroimpact::verdict::{
 };
 
 /// A motion at a point of any system, with the share of starts that lead to it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Share {
     /// Its label.
     pub label: Cow<'static, str>,
