@@ -81,7 +81,7 @@ pub(crate) fn cells_figure(
         }
         (None, _) if cycles.is_some() => cells.basin(&sides, String::new()),
         (None, Sides::Line(side)) => Ok(shares::draw(side, &cells.points(None), String::new())),
-        (None, Sides::Plane(plane)) => map::draw_with(plane, cells.labelled(), String::new(), (true, false)),
+        (None, Sides::Plane(plane)) => map::draw_with(plane, &cells.points(None), String::new(), (true, false)),
     };
     text(&figure.map_err(AnswerError::from)?)
 }

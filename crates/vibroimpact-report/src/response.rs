@@ -1,7 +1,6 @@
 //! The response of any system as it is told: names, units and values of what varies and of the quantities.
 
-use crate::Units;
-use crate::figure::{named, quantity_name};
+use crate::{FieldName, Units, Varied};
 use vibroimpact::machine::Machine;
 use vibroimpact::quantities::machine_quantity;
 use vibroimpact_plot::plain;
@@ -48,10 +47,10 @@ impl<'a> ResponseView<'a> {
             found,
             vary: units.name_of(plan.vary),
             over: &asked.over,
-            column: units.column_of(plan.vary).to_owned(),
-            axis: named(plan.vary, units),
+            column: plan.vary.column(units).to_owned(),
+            axis: plan.vary.axis(units),
             quantity: quantity.description().to_owned(),
-            ordinate: quantity_name(quantity, units),
+            ordinate: quantity.axis(units),
             columns: Quantity::ALL.map(|quantity| units.column(quantity.name(), quantity.kind())).to_vec(),
             units: Some((*units, plan.vary)),
         })

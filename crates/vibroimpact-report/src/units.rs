@@ -5,8 +5,7 @@ use crate::varied::Varied;
 use vibroimpact::quantities::{Quantities, Quantity};
 use vibroimpact::{QuantityKind, Scales};
 use vibroimpact_study::{
-    Axis, Body, Coordinate, FramePlan, Parameter, Plan, PlanError, Span, SystemPlan, UnitsPlan, Values, is_length,
-    natural_hertz,
+    Axis, Body, FramePlan, Parameter, Plan, PlanError, Span, SystemPlan, UnitsPlan, Values, is_length, natural_hertz,
 };
 
 /// The system of a plan, and the units of its results.
@@ -186,38 +185,7 @@ impl Units {
     /// # Errors
     /// [`PlanError`] if a value overflows.
     pub fn shown(&self, axis: &Axis) -> Result<Values, PlanError> {
-        shown(&axis.over, self.of_coordinate(axis.vary))
-    }
-
-    /// The unit of what varies on an axis.
-    #[must_use]
-    pub fn of_coordinate(&self, vary: Coordinate) -> f64 {
-        match vary {
-            Coordinate::Parameter(parameter) => self.of(parameter),
-            Coordinate::X => self.length(),
-            Coordinate::V => self.velocity(),
-            Coordinate::Phase => 1.0,
-        }
-    }
-
-    /// The name of the column of an axis, which ends in its unit if it has one.
-    #[must_use]
-    pub const fn column_of_coordinate(&self, vary: Coordinate) -> &'static str {
-        match vary {
-            Coordinate::Parameter(parameter) => self.column_of(parameter),
-            Coordinate::X if self.si => "x_m",
-            Coordinate::V if self.si => "v_m_per_s",
-            _ => vary.name(),
-        }
-    }
-
-    /// The name of the column of a parameter, which ends in its unit if it has one.
-    pub(crate) const fn column_of(&self, parameter: Parameter) -> &'static str {
-        match parameter {
-            Parameter::Gap if self.si => "gap_m",
-            Parameter::SecondGap if self.si => "second_gap_m",
-            _ => self.name_of(parameter),
-        }
+        shown(&axis.over, Varied::unit(&axis.vary, self))
     }
 
     /// `name` followed by its unit in brackets, if there is one, such as `time (s)`.

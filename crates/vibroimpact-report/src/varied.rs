@@ -2,7 +2,7 @@
 //! results, those of a machine by their paths and in its own units.
 
 use crate::Units;
-use crate::figure::{named, quantity_name, symbol};
+use crate::figure::symbol;
 use vibroimpact::QuantityKind;
 use vibroimpact_plot::plain;
 use vibroimpact_study::diagram::{Show, Shown};
@@ -36,7 +36,11 @@ impl Varied for Parameter {
     }
 
     fn column(&self, units: &Units) -> &str {
-        units.column_of(*self)
+        match self {
+            Self::Gap if units.si => "gap_m",
+            Self::SecondGap if units.si => "second_gap_m",
+            _ => units.name_of(*self),
+        }
     }
 
     fn mark(&self, units: &Units) -> String {
@@ -44,7 +48,13 @@ impl Varied for Parameter {
     }
 
     fn axis(&self, units: &Units) -> String {
-        named(*self, units)
+        match units.unit_of(*self) {
+            "" => symbol(*self).into(),
+            unit if matches!(self, Self::Body(_)) => format!("{} ({unit})", symbol(*self)),
+            "Hz" => "frequency (Hz)".into(),
+            unit if *self == Self::SecondGap => format!("second gap ({unit})"),
+            unit => format!("gap ({unit})"),
+        }
     }
 
     fn words(&self, units: &Units) -> String {
@@ -67,7 +77,12 @@ impl Varied for Parameter {
 
 impl Varied for Coordinate {
     fn unit(&self, units: &Units) -> f64 {
-        units.of_coordinate(*self)
+        match self {
+            Self::Parameter(parameter) => units.of(*parameter),
+            Self::X => units.length(),
+            Self::V => units.velocity(),
+            Self::Phase => 1.0,
+        }
     }
 
     fn field(&self, units: &Units) -> &str {
@@ -78,7 +93,12 @@ impl Varied for Coordinate {
     }
 
     fn column(&self, units: &Units) -> &str {
-        units.column_of_coordinate(*self)
+        match self {
+            Self::Parameter(parameter) => parameter.column(units),
+            Self::X if units.si => "x_m",
+            Self::V if units.si => "v_m_per_s",
+            start => start.name(),
+        }
     }
 
     fn mark(&self, units: &Units) -> String {
@@ -164,7 +184,10 @@ impl FieldName for Quantity {
     }
 
     fn axis(&self, units: &Units) -> String {
-        quantity_name(*self, units)
+        match self.kind().unit() {
+            "" => self.description().to_owned(),
+            unit => units.named(self.description(), unit),
+        }
     }
 }
 

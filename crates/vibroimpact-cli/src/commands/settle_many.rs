@@ -12,7 +12,7 @@ use crate::session::Session;
 use clap::Args;
 use core::str::FromStr;
 use std::path::PathBuf;
-use vibroimpact_report::{Asked, Shown, Units};
+use vibroimpact_report::{Asked, Shown, Units, Varied};
 use vibroimpact_study::{
     BasinPlan, Coordinate, DrawnPoints, ListedColumn, ManyPlan, Parameter, PointRange, PointRule, PointsPlan,
     StartPlan, Task,
@@ -193,7 +193,7 @@ impl SettleMany {
             )));
         }
         let scaled = |column: ListedColumn| {
-            let unit = asked.units.of_coordinate(column.vary);
+            let unit = Varied::unit(&column.vary, &asked.units);
             ListedColumn { values: column.values.iter().map(|value| value / unit).collect(), ..column }
         };
         let columns = columns.into_iter().map(scaled).collect();
@@ -209,7 +209,7 @@ impl SettleMany {
             to: stretch.to,
         });
         let of_starts = self.starts().filter_map(|(vary, given)| {
-            let ((from, to), unit) = (given.ends()?, asked.units.of_coordinate(vary));
+            let ((from, to), unit) = (given.ends()?, Varied::unit(&vary, &asked.units));
             Some(PointRange { vary, from: from / unit, to: to / unit })
         });
         let over: Vec<PointRange> = of_system.chain(of_starts).collect();

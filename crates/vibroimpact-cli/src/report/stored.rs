@@ -14,7 +14,7 @@ use vibroimpact::math::sort_by;
 use vibroimpact_report::json::map::{LabelCount, of_points};
 use vibroimpact_report::number::{Number, percent};
 use vibroimpact_report::table::diagram;
-use vibroimpact_report::{PROGRAM, Told, Units};
+use vibroimpact_report::{PROGRAM, Told, Units, Varied};
 use vibroimpact_store::{Store, StoreError};
 use vibroimpact_study::diagram::ShowText;
 use vibroimpact_study::study::{Along, NO_MOTION, NOT_COMPUTED, REFUSED, UNDECIDED, label_of};
@@ -145,7 +145,8 @@ pub(crate) fn summary(store: &Store) -> Result<String, Failure> {
 /// The title of a plan, with the axes in the units of the results.
 pub(crate) fn title(plan: &Plan) -> String {
     let (title, units) = (plan.title(), Units::of_plan(plan));
-    let names: Vec<&str> = plan_axes(plan).iter().map(|axis| units.column_of_coordinate(axis.vary)).collect();
+    let axes = plan_axes(plan);
+    let names: Vec<&str> = axes.iter().map(|axis| axis.vary.column(&units)).collect();
     match title.split_once(" over ") {
         Some((what, _)) if !names.is_empty() => format!("{what} over {}", names.join(", ")),
         _ => title,
@@ -156,7 +157,7 @@ pub(crate) fn title(plan: &Plan) -> String {
 fn column_of(dimension: &Dimension, plan: &Plan) -> String {
     let axes = plan_axes(plan);
     let axis = axes.iter().find(|axis| axis.vary.name() == dimension.name);
-    axis.map_or_else(|| dimension.name.clone(), |axis| Units::of_plan(plan).column_of_coordinate(axis.vary).to_owned())
+    axis.map_or_else(|| dimension.name.clone(), |axis| axis.vary.column(&Units::of_plan(plan)).to_owned())
 }
 
 /// Writes the table of an orbit diagram.

@@ -3,10 +3,8 @@
 use crate::ReportError;
 use crate::figure::basin::{self, BasinMotion};
 use crate::figure::coloured::Value;
-use crate::figure::map::LabelledCells;
 use crate::figure::plane::Sides;
 use crate::figure::point_motion::{PointMotion, PointMotions};
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use vibroimpact::math::sort_by_key;
 use vibroimpact_plot::Figure;
@@ -66,23 +64,6 @@ impl Cells<'_> {
             all.points.push(motions);
         }
         all
-    }
-
-    /// The labels at each point with their shares.
-    #[must_use]
-    pub fn labelled(&self) -> LabelledCells {
-        let mut known: BTreeMap<i32, Option<String>> = BTreeMap::new();
-        for code in self.labels {
-            known.entry(*code).or_insert_with(|| label_of(*code));
-        }
-        let mut cells = LabelledCells::default();
-        for (point, codes) in self.labels.chunks(self.width.max(1)).enumerate() {
-            let label = |(k, code): (usize, &i32)| {
-                Some((Cow::Borrowed(known.get(code)?.as_deref()?), self.share(point * self.width + k)))
-            };
-            cells.push(codes.iter().enumerate().filter_map(label));
-        }
-        cells
     }
 
     /// The figure of a basin, in which each start has one motion.

@@ -4,7 +4,7 @@
 //! Where both sweeps have the same cycle, the small dot of one lies inside the large dot of the other, so both colours
 //! are visible. Motions that do not repeat have small dots in both sweeps.
 
-use crate::figure::{along, plane::PlaneAxis};
+use crate::figure::{along, extremes, plane::PlaneAxis};
 use crate::units::shown;
 use crate::{ReportError, ShownValue, Units, Varied};
 use std::collections::HashSet;
@@ -155,7 +155,7 @@ fn clouds(motions: &[Motion], direction: SweepDirection, symbol: &str) -> Vec<Cl
 
 /// The range of all values, with a margin.
 fn spread(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+    let (low, high) = extremes(values);
     if low > high {
         return (0.0, 1.0);
     }

@@ -2,7 +2,7 @@
 //! forces.
 
 use crate::ReportError;
-use crate::figure::first_of;
+use crate::figure::{extremes, first_of};
 use crate::table::waveform::samples;
 use vibroimpact::events::{Event, EventKind, Sample, Start};
 use vibroimpact::machine::{Machine, StopLaw};
@@ -99,7 +99,7 @@ pub fn figure(
 
 /// A range that contains the values, with some air.
 fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    let (low, high) = extremes(values);
     let air = if high > low { 0.08 * (high - low) } else { 0.5 * low.abs().max(1e-3) };
     (low - air, high + air)
 }

@@ -1,12 +1,10 @@
 //! The figure of a map: each point of the parameter plane in the colours of its coexisting motions.
 
 use crate::figure::plane::{Plane, Sides};
-use crate::figure::point_motion::{PointMotions, legend};
+use crate::figure::point_motion::{PointMotion, PointMotions, legend};
 use crate::figure::shares;
 use crate::{FieldName, ReportError, Units, Varied};
-use std::borrow::Cow;
-use std::collections::BTreeMap;
-use vibroimpact_plot::{ClassStyle, Colour, Figure, Key, Legend, Line, Panel, Raster, Rects, class_style};
+use vibroimpact_plot::{ClassStyle, Colour, Figure, Key, Line, Panel, Raster, Rects, class_style};
 use vibroimpact_study::RegionMap;
 
 /// With more points than this, the parts of a cell would be too small to be visible; coexisting motions are stripes across
@@ -19,54 +17,19 @@ const STRIPE: usize = 12;
 /// Distance of the lines that hatch undecided cells, in cells.
 const HATCH: usize = 7;
 
-/// The distinct labels at the points of a map, and which of them each point has with which share, the most frequent first.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct LabelledCells {
-    labels: Vec<String>,
-    numbers: BTreeMap<String, usize>,
-    cells: Vec<Vec<(usize, f64)>>,
-}
-
-impl LabelledCells {
-    /// Adds a point with the labels and shares of its motions.
-    pub(crate) fn push<'a>(&mut self, labels: impl Iterator<Item = (Cow<'a, str>, f64)>) {
-        let mut cell: Vec<(usize, f64)> = Vec::new();
-        for (label, share) in labels {
-            let class = self.numbers.get(&*label).copied().unwrap_or_else(|| {
-                self.numbers.insert(label.clone().into_owned(), self.labels.len());
-                self.labels.push(label.into_owned());
-                self.labels.len() - 1
-            });
-            // motions may have the same label
-            match cell.iter_mut().find(|(other, _)| *other == class) {
-                Some((_, whole)) => *whole += share,
-                None => cell.push((class, share)),
-            }
-        }
-        self.cells.push(cell);
-    }
-
-    /// Keeps only the first motion of each point, and the labels that are left.
-    fn first_only(self) -> Self {
-        let mut firsts = Self::default();
-        for cell in &self.cells {
-            firsts.push(cell.iter().take(1).map(|(class, _)| (Cow::Borrowed(self.labels[*class].as_str()), 1.0)));
-        }
-        firsts
-    }
-
+impl PointMotions {
     /// The class of each cell of a raster: where motions coexist, stripes from the lower right to the upper left whose
     /// widths are the shares; undecided cells are crossed by lines of the class after all others.
     fn striped(&self, columns: usize) -> Vec<u16> {
         let undecided = self.labels.iter().position(|label| label == "undecided");
-        let class = |(k, cell): (usize, &Vec<(usize, f64)>)| {
+        let class = |(k, cell): (usize, &Vec<PointMotion>)| {
             let (column, row) = (k % columns, k / columns);
             #[allow(clippy::cast_precision_loss)] // below the period
             let mut rest = (((column + row) % STRIPE) as f64 + 0.5) / STRIPE as f64;
             let mut shown = None;
-            for (class, share) in cell {
-                shown = Some(*class);
-                rest -= share;
+            for motion in cell {
+                shown = Some(motion.class);
+                rest -= motion.share;
                 if rest < 0.0 {
                     break;
                 }
@@ -75,7 +38,7 @@ impl LabelledCells {
             let shown = if shown.is_some() && shown == undecided && lines { Some(self.labels.len()) } else { shown };
             shown.and_then(|class| u16::try_from(class).ok()).unwrap_or(u16::MAX)
         };
-        self.cells.iter().enumerate().map(class).collect()
+        self.points.iter().enumerate().map(class).collect()
     }
 
     /// The colours of the classes of [`Self::striped`].
@@ -87,27 +50,22 @@ impl LabelledCells {
     /// Lines between neighbouring cells with different first motions.
     fn boundaries(&self, plane: &Plane) -> Line {
         let columns = plane.x.count();
-        let first = |k: usize| self.cells.get(k).and_then(|cell| cell.first()).map(|(class, _)| *class);
+        let first = |k: usize| self.points.get(k).and_then(|cell| cell.first()).map(|motion| motion.class);
         let (mut xs, mut ys) = (Vec::new(), Vec::new());
         let mut segment = |x: (f64, f64), y: (f64, f64)| {
             xs.extend([x.0, x.1, f64::NAN]);
             ys.extend([y.0, y.1, f64::NAN]);
         };
-        for k in 0..self.cells.len() {
+        for k in 0..self.points.len() {
             let (x, y) = (plane.x.cell(k % columns), plane.y.cell(k / columns));
             if (k + 1) % columns > 0 && first(k + 1) != first(k) {
                 segment((x.1, x.1), y);
             }
-            if k + columns < self.cells.len() && first(k + columns) != first(k) {
+            if k + columns < self.points.len() && first(k + columns) != first(k) {
                 segment(x, (y.1, y.1));
             }
         }
         Line::new(xs, ys, Colour::BLACK).width(1.0)
-    }
-
-    /// The legend of the labels.
-    pub(crate) fn legend(&self) -> Legend {
-        legend(self.labels.iter().map(String::as_str), |label| Key::Patch(class_style(label)))
     }
 }
 
@@ -122,15 +80,10 @@ pub fn figure<V: Varied, F: FieldName>(
     title: String,
     divided: (bool, bool),
 ) -> Result<Figure, ReportError> {
+    let motions = PointMotions::of_map(found, None, units);
     match Sides::of(&found.axes, units)? {
-        Sides::Line(side) => Ok(shares::draw(&side, &PointMotions::of_map(found, None, units), title)),
-        Sides::Plane(plane) => {
-            let mut cells = LabelledCells::default();
-            for motions in &found.points {
-                cells.push(motions.iter().map(|motion| (motion.label.as_ref().into(), motion.share)));
-            }
-            draw_with(&plane, cells, title, divided)
-        }
+        Sides::Line(side) => Ok(shares::draw(&side, &motions, title)),
+        Sides::Plane(plane) => draw_with(&plane, &motions, title, divided),
     }
 }
 
@@ -140,11 +93,11 @@ pub fn figure<V: Varied, F: FieldName>(
 /// As [`draw`].
 pub fn draw_with(
     plane: &Plane,
-    cells: LabelledCells,
+    motions: &PointMotions,
     title: String,
     (stripes, boundaries): (bool, bool),
 ) -> Result<Figure, ReportError> {
-    let cells = if stripes { cells } else { cells.first_only() };
+    let cells = motions.by_label(if stripes { usize::MAX } else { 1 });
     let lines = boundaries.then(|| cells.boundaries(plane));
     let mut figure = draw(plane, &cells, title)?;
     if let (Some(lines), Some(panel)) = (lines, figure.panels.first_mut()) {
@@ -157,8 +110,8 @@ pub fn draw_with(
 ///
 /// # Errors
 /// [`ReportError::Plot`] if the number of cells is not the number of points of the plane.
-pub fn draw(plane: &Plane, cells: &LabelledCells, title: String) -> Result<Figure, ReportError> {
-    let split = cells.cells.len() <= SPLIT;
+pub fn draw(plane: &Plane, cells: &PointMotions, title: String) -> Result<Figure, ReportError> {
+    let split = cells.points.len() <= SPLIT;
     let panel = Panel::new(plane.x.axis(), plane.y.axis());
     let columns = plane.x.count();
     let panel = match (plane.x.even(), plane.y.even()) {
@@ -169,19 +122,21 @@ pub fn draw(plane: &Plane, cells: &LabelledCells, title: String) -> Result<Figur
         _ => {
             let styles: Vec<ClassStyle> = cells.labels.iter().map(|label| class_style(label)).collect();
             let mut rects = Rects::new(styles);
-            for (k, cell) in cells.cells.iter().enumerate().filter(|(_, cell)| !cell.is_empty()) {
-                let classes: Vec<usize> = cell.iter().map(|(class, _)| *class).collect();
+            for (k, cell) in cells.points.iter().enumerate().filter(|(_, cell)| !cell.is_empty()) {
+                let classes: Vec<usize> = cell.iter().map(|motion| motion.class).collect();
                 rects.cell(plane.x.cell(k % columns), plane.y.cell(k / columns), &classes);
             }
             panel.with(rects)
         }
     };
-    Ok(Figure::new(panel).size(680.0, 620.0).title(title).legend(cells.legend()))
+    let legend = legend(cells.labels.iter().map(String::as_str), |label| Key::Patch(class_style(label)));
+    Ok(Figure::new(panel).size(680.0, 620.0).title(title).legend(legend))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::figure::coloured::Value;
     use crate::figure::plane::PlaneAxis;
     use vibroimpact_plot::Mark;
     use vibroimpact_study::{Span, Values};
@@ -193,11 +148,11 @@ mod tests {
         Plane { x: side("inverse_beta", columns), y: side("gap", rows) }
     }
 
-    fn cells(of: &[&[&str]]) -> LabelledCells {
-        let mut cells = LabelledCells::default();
-        of.iter().for_each(|labels| {
-            cells.push(labels.iter().map(|label| (Cow::Borrowed(*label), 1.0 / labels.len() as f64)));
-        });
+    fn cells(of: &[&[&str]]) -> PointMotions {
+        let mut cells = PointMotions::default();
+        for labels in of {
+            cells.push(labels.iter().map(|label| (*label, 1.0 / labels.len() as f64, Value::Undefined)));
+        }
         cells
     }
 
@@ -229,12 +184,11 @@ mod tests {
     #[test]
     fn a_raster_has_stripes_and_hatches() {
         let (columns, rows) = (240, 240);
-        let mut many = LabelledCells::default();
+        let mut many = PointMotions::default();
         for k in 0..columns * rows {
-            match k % columns {
-                0..120 => many.push([(Cow::Borrowed("1/1"), 0.75), (Cow::Borrowed("0"), 0.25)].into_iter()),
-                _ => many.push(core::iter::once((Cow::Borrowed("undecided"), 1.0))),
-            }
+            let two = [("1/1", 0.75, Value::Undefined), ("0", 0.25, Value::Undefined)];
+            let one = [("undecided", 1.0, Value::Undecided)];
+            many.push(if k % columns < 120 { two.as_slice() } else { &one }.iter().copied());
         }
         let classes = many.striped(columns);
         let (mut counts, mut line) = ([0_u32; 4], 0_usize);
@@ -252,9 +206,8 @@ mod tests {
 
     #[test]
     fn groups_are_named_where_there_are_many_labels() {
-        let labels: Vec<String> = (5..25).map(|m| format!("{m}/1")).collect();
-        let mut many = LabelledCells::default();
-        labels.iter().for_each(|label| many.push(core::iter::once((Cow::Borrowed(label.as_str()), 1.0))));
+        let mut many = PointMotions::default();
+        (5..25).for_each(|m| many.push([(format!("{m}/1").as_str(), 1.0, Value::Undefined)].into_iter()));
         let figure = draw(&plane(10, 2), &many, String::new()).unwrap();
         assert_eq!(figure.legend.as_ref().unwrap().entries.len(), 1);
         let Mark::Rects(rects) = &figure.panels[0].marks[0] else { panic!("cells") };

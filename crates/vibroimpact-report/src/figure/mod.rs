@@ -28,7 +28,6 @@ pub mod waveform;
 
 use crate::number::short;
 use crate::{Asked, Units, Varied};
-use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::{Colour, SERIES, plain};
 use vibroimpact_study::{BodyNumber, Cut, Parameter};
 
@@ -112,26 +111,6 @@ pub(crate) const fn symbol(parameter: Parameter) -> &'static str {
     }
 }
 
-/// The symbol of a parameter with its unit, for an axis.
-#[must_use]
-pub fn named(parameter: Parameter, units: &Units) -> String {
-    match units.unit_of(parameter) {
-        "" => symbol(parameter).into(),
-        unit if matches!(parameter, Parameter::Body(_)) => format!("{} ({unit})", symbol(parameter)),
-        "Hz" => "frequency (Hz)".into(),
-        unit if parameter == Parameter::SecondGap => format!("second gap ({unit})"),
-        unit => format!("gap ({unit})"),
-    }
-}
-
-/// A quantity in words with its unit, for an axis.
-pub(crate) fn quantity_name(quantity: Quantity, units: &Units) -> String {
-    match quantity.kind().unit() {
-        "" => quantity.description().to_owned(),
-        unit => units.named(quantity.description(), unit),
-    }
-}
-
 /// The text of a label in a figure.
 pub(crate) fn label(label: &str) -> String {
     match label {
@@ -143,6 +122,11 @@ pub(crate) fn label(label: &str) -> String {
 /// A title of a figure with the first `shown` of so many coordinates.
 pub(crate) fn first_of(title: String, shown: usize, all: usize) -> String {
     if all > shown { format!("{title}: the first {shown} of {all} coordinates") } else { title }
+}
+
+/// The smallest and the largest of some values.
+pub(crate) fn extremes(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
 }
 
 /// Colour number `k` of a series: without black, which is used for marks, and yellow, which is too light for thin lines and dots.

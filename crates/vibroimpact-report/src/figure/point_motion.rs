@@ -5,7 +5,7 @@ use crate::{FieldName, Units, Varied, figure};
 use std::collections::BTreeMap;
 use vibroimpact::math::sort_by_key;
 use vibroimpact_plot::{Entry, GROUPS, Key, Legend, legend_group, legend_text, unforced};
-use vibroimpact_study::{RegionMap, Share};
+use vibroimpact_study::RegionMap;
 
 /// Maximum number of labels with an entry of their own in a legend; if there are more, their groups have entries.
 const NAMED: usize = 14;
@@ -45,6 +45,30 @@ impl PointMotions {
         })
     }
 
+    /// Adds a point with the labels, shares and values of its motions.
+    pub(crate) fn push<'a>(&mut self, motions: impl Iterator<Item = (&'a str, f64, Value)>) {
+        let point = motions.map(|(label, share, value)| PointMotion { class: self.class(label), share, value });
+        let point = point.collect();
+        self.points.push(point);
+    }
+
+    /// The labels of the first `most` motions at each point, those of one label as one motion. Without a label there is no motion.
+    pub(crate) fn by_label(&self, most: usize) -> Self {
+        let mut all = Self::default();
+        for motions in &self.points {
+            let mut point: Vec<PointMotion> = Vec::new();
+            for motion in motions.iter().take(most).filter(|motion| !self.labels[motion.class].is_empty()) {
+                let class = all.class(&self.labels[motion.class]);
+                match point.iter_mut().find(|other| other.class == class) {
+                    Some(whole) => whole.share += motion.share,
+                    None => point.push(PointMotion { class, ..*motion }),
+                }
+            }
+            all.points.push(point);
+        }
+        all
+    }
+
     /// The motions of a map, with the values of a field of the plan in these units.
     pub(crate) fn of_map<V: Varied, F: FieldName>(
         found: &RegionMap<V, F>,
@@ -54,13 +78,10 @@ impl PointMotions {
         let mut all = Self::default();
         for (k, motions) in found.points.iter().enumerate() {
             let there = units.at_point(&found.axes, k);
-            let motion = |motion: &Share| {
+            all.push(motions.iter().map(|motion| {
                 let value = |field: usize| Some(motion.quantities.get(field)? * found.fields[field].unit(&there));
-                let value = Value::of(&motion.label, field.and_then(value));
-                PointMotion { class: all.class(&motion.label), share: motion.share, value }
-            };
-            let point = motions.iter().map(motion).collect();
-            all.points.push(point);
+                (&*motion.label, motion.share, Value::of(&motion.label, field.and_then(value)))
+            }));
         }
         all
     }

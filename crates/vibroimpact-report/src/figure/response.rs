@@ -1,10 +1,10 @@
 //! The figure of a response: branches as curves, stable solid, neutral dashed and dotted and unstable dashed, and the motions of both sweeps.
 
 use crate::figure::branch::{motion_line, of_motion};
-use crate::figure::{label, variant};
+use crate::figure::{label, series};
 use crate::response::ResponseView;
 use vibroimpact::verdict::Stability;
-use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Panel, Points, SERIES, Stroke, class_style};
+use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Panel, Points, Stroke, class_style};
 use vibroimpact_study::ResponseRow;
 
 /// Width of a branch.
@@ -14,8 +14,6 @@ const LARGE: f64 = 8.0;
 const LIGHT: Colour = Colour::hex(0xc4_c4c4);
 const SMALL: f64 = 4.0;
 const DARK: Colour = Colour::hex(0x60_6060);
-/// Colours of branches: without black and yellow, which is too light for a line.
-const USABLE: usize = 6;
 
 /// How the parts with each stability are drawn.
 const DASHES: [(Stability, Dash); 3] =
@@ -69,7 +67,7 @@ pub fn figure(view: &ResponseView<'_>, title: String) -> Figure {
         }
     }
     for (k, name) in labels.iter().enumerate() {
-        let colour = if of_motion(name) { class_style(name).colour } else { variant(SERIES[k % USABLE], k / USABLE) };
+        let colour = if of_motion(name) { class_style(name).colour } else { series(k) };
         for (stability, dash) in DASHES {
             for (_, xs, ys) in lines.iter().filter(|((other, own), ..)| other == name && *own == stability) {
                 motion_line(&mut panel, (xs.clone(), ys.clone()), name, Stroke::new(colour).width(WIDTH).dash(dash));

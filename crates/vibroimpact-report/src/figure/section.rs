@@ -1,6 +1,6 @@
 //! The figure of both sections of an attractor: phase and speed of its closings of stops, and its states at phase 0.
 
-use crate::figure::{first_of, series, title};
+use crate::figure::{extremes, first_of, series, title};
 use crate::number::short;
 use crate::{Asked, Units};
 use core::f64::consts::PI;
@@ -149,10 +149,6 @@ fn phases(values: impl Iterator<Item = f64>) -> FigureAxis {
     }
     let ticks = ["0", "π/2", "π", "3π/2", "2π"];
     axis.range(0.0, 2.0 * PI).ticks((0_u8..).zip(ticks).map(|(k, text)| Tick::new(0.5 * PI * f64::from(k), text)))
-}
-
-fn extremes(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
 }
 
 /// Points as large dots if few are distinct, otherwise as a cloud of small dots.

@@ -29,7 +29,6 @@ pub fn draw(side: &PlaneAxis, motions: &PointMotions, title: String) -> Figure {
 mod tests {
     use super::*;
     use crate::figure::coloured::Value;
-    use crate::figure::point_motion::PointMotion;
     use vibroimpact_plot::Mark;
     use vibroimpact_study::{Span, Values};
 
@@ -38,10 +37,7 @@ mod tests {
         let side = PlaneAxis::new("gap", &Values::Span("0:1:2".parse::<Span>().unwrap())).unwrap();
         let mut all = PointMotions::default();
         for point in [vec![("2/1", 0.75), ("1/1", 0.25)], vec![("1/1", 0.5), ("2/1", 0.25), ("1/1", 0.25)]] {
-            let motion =
-                |(label, share): (&str, f64)| PointMotion { class: all.class(label), share, value: Value::Undefined };
-            let point = point.into_iter().map(motion).collect();
-            all.points.push(point);
+            all.push(point.into_iter().map(|(label, share)| (label, share, Value::Undefined)));
         }
         let figure = draw(&side, &all, String::new());
         let Mark::Rects(rects) = &figure.panels[0].marks[0] else { panic!("bars") };

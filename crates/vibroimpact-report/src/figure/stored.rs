@@ -65,7 +65,7 @@ fn of_system<D: Told, A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         Task::Map(_) => match sides()? {
             Sides::Line(side) => Ok(shares::draw(&side, &arrays()?.cells().points(None), over_axes())),
             Sides::Plane(plane) => {
-                Ok(map::draw_with(&plane, arrays()?.cells().labelled(), over_axes(), overlay.cells())?)
+                Ok(map::draw_with(&plane, &arrays()?.cells().points(None), over_axes(), overlay.cells())?)
             }
         },
         Task::Basin(BasinPlan { points: Some(points), axes, .. }) if axes.is_empty() => {

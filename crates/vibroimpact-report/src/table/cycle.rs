@@ -1,5 +1,6 @@
 //! The columns of a cycle of any system: its multipliers, its drift and its closings.
 
+use super::quantities::finite;
 use crate::Units;
 use crate::json::event::{EventObject, closings};
 use crate::number::Number;
@@ -25,9 +26,7 @@ pub(super) fn numbered(multipliers: usize) -> impl Iterator<Item = String> {
 /// Real and imaginary parts, each after a comma. A number that is not finite, or of a multiplier that is not there, is an empty
 /// cell.
 pub(super) fn parts(multipliers: &[[f64; 2]], columns: usize) -> String {
-    let part = |x: f64| if x.is_finite() { format!(",{}", Number(x)) } else { ",".to_owned() };
-    let both = |k: usize| multipliers.get(k).map_or_else(|| ",,".to_owned(), |of| of.map(part).concat());
-    (0..columns).map(both).collect()
+    (0..columns).map(|k| finite(multipliers.get(k).unwrap_or(&[f64::NAN; 2]))).collect()
 }
 
 /// The names of the columns of the drift.

@@ -1,6 +1,7 @@
 //! The response over a number: one row for each motion of a sweep and each point of a branch.
 
 use super::Table;
+use super::quantities::finite;
 use crate::number::Number;
 use crate::response::ResponseView;
 use vibroimpact_study::ResponseRow;
@@ -16,19 +17,16 @@ pub fn table(view: ResponseView<'_>) -> Table<'_> {
     let rows = curves.into_iter().flat_map(move |(name, rows)| {
         let view = view.clone();
         rows.iter().map(move |row| {
-            let cell = |k: usize| {
-                let value = view.value(row, k);
-                if value.is_finite() { format!(",{}", Number(value)) } else { ",".to_owned() }
-            };
-            let cells: String = (0..row.quantities.len()).map(cell).collect();
+            let values: Vec<f64> = (0..row.quantities.len()).map(|k| view.value(row, k)).collect();
             format!(
-                "{name},{},{},{},{},{},{}{cells}",
+                "{name},{},{},{},{},{},{}{}",
                 Number(view.parameter(row)),
                 row.label,
                 row.admissible,
                 row.stable(),
                 row.stability.map_or("", |stability| stability.name()),
-                row.event.unwrap_or_default()
+                row.event.unwrap_or_default(),
+                finite(&values)
             )
         })
     });

@@ -1,6 +1,7 @@
 //! A quantity of all coexisting motions over one axis, as dots in the colours of their labels.
 
 use super::Value;
+use crate::figure::extremes;
 use crate::figure::plane::PlaneAxis;
 use crate::figure::point_motion::{PointMotions, legend};
 use vibroimpact_plot::{Colour, Figure, FigureAxis, Key, Panel, PointStyle, Points, Shape, class_style};
@@ -18,8 +19,7 @@ const AWAY: f64 = 0.08;
 pub fn draw(side: &PlaneAxis, motions: &PointMotions, name: String, title: String) -> Figure {
     let points = &motions.points;
     let all = || points.iter().enumerate().flat_map(|(k, motions)| motions.iter().map(move |motion| (k, motion)));
-    let numbers = || all().filter_map(|(_, motion)| motion.value.finite());
-    let (low, high) = (numbers().fold(f64::INFINITY, f64::min), numbers().fold(f64::NEG_INFINITY, f64::max));
+    let (low, high) = extremes(all().filter_map(|(_, motion)| motion.value.finite()));
     let (low, high) = if low <= high { (low, high) } else { (0.0, 1.0) };
     let away = AWAY * if high > low { high - low } else { low.abs().max(1e-300) };
     let size = if points.len() > MANY { SMALL } else { LARGE };
@@ -70,7 +70,6 @@ pub fn draw(side: &PlaneAxis, motions: &PointMotions, name: String, title: Strin
 mod tests {
     use super::*;
     use crate::Units;
-    use crate::figure::point_motion::PointMotion;
     use vibroimpact_study::{Axis, Parameter, Span};
 
     #[test]
@@ -82,9 +81,7 @@ mod tests {
             vec![("1/1", Value::Finite(1.5)), ("undecided", Value::Undecided)],
             vec![("inf/1", Value::Infinite)],
         ] {
-            let motion = |(label, value)| PointMotion { class: points.class(label), share: 0.5, value };
-            let point = point.into_iter().map(motion).collect();
-            points.points.push(point);
+            points.push(point.into_iter().map(|(label, value)| (label, 0.5, value)));
         }
         let side = PlaneAxis::of(&axis, &Units::default()).unwrap();
         let svg = draw(&side, &points, "largest impact speed".to_owned(), String::new()).to_svg();

@@ -2,6 +2,7 @@
 
 use super::Value;
 use crate::ReportError;
+use crate::figure::extremes;
 use crate::figure::plane::Plane;
 use vibroimpact_plot::{ClassStyle, ColourBar, Figure, FigureAxis, Legend, Panel, Raster, Rects};
 
@@ -16,9 +17,7 @@ pub fn draw(
     (name, sentence): (String, Option<&str>),
     ends: Option<(f64, f64)>,
 ) -> Result<Figure, ReportError> {
-    let numbers = || cells.iter().filter_map(|cell| cell.finite());
-    let found = || (numbers().fold(f64::INFINITY, f64::min), numbers().fold(f64::NEG_INFINITY, f64::max));
-    let range = ends.unwrap_or_else(found);
+    let range = ends.unwrap_or_else(|| extremes(cells.iter().filter_map(|cell| cell.finite())));
     let bar = ColourBar::new(FigureAxis::new(name).range(range.0, range.1));
     let colours = ColourBar::palette();
     let class = |value: &Value| value.finite().map(|number| bar.step(number));

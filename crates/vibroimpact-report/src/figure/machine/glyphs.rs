@@ -1,6 +1,7 @@
 //! The parts of a schematic: springs, dampers, stops, sliders, bodies, arrows, the ground.
 
 use super::model::{Item, Kind};
+use crate::figure::extremes;
 use vibroimpact_plot::{Anchor, Colour, FilledRegion, Hatch, Line, Mark, Pattern, SERIES, Stroke, Text, plain};
 
 pub(super) type Point = (f64, f64);
@@ -43,10 +44,7 @@ impl Way {
 impl Sketch {
     /// Left, right, low and high ends.
     pub(super) fn extent(&self) -> (f64, f64, f64, f64) {
-        let ends = |of: fn(&Point) -> f64| {
-            let all = self.seen.iter().map(of);
-            all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
-        };
+        let ends = |of: fn(&Point) -> f64| extremes(self.seen.iter().map(of));
         let ((left, right), (low, high)) = (ends(|p| p.0), ends(|p| p.1));
         (left, right, low, high)
     }
@@ -78,7 +76,8 @@ impl Sketch {
             Anchor::End => x - wide,
         };
         self.seen.extend([(left, y - 0.15), (left + wide, y + 0.15)]);
-        self.marks.push(Text::new(x, y, plain(text)).anchor(anchor).size(TEXT).without_halo().into());
+        let text = Text::new(x, y, plain(text)).anchor(anchor).size(TEXT);
+        self.marks.push(Text { halo: false, ..text }.into());
     }
 
     /// A body with its name and mass.

@@ -9,7 +9,7 @@ pub use layer::Layer;
 pub use layer_plane::{LayerPlane, REGION_LABELS, Rings};
 
 use crate::figure::plane::{Plane, PlaneAxis};
-use crate::{AnswerError, ReportError, Units};
+use crate::{AnswerError, ReportError, Units, Varied};
 use vibroimpact_plot::{Anchor, Colour, Dash, Figure, Line, Panel, Points, Shape, Text};
 use vibroimpact_study::{Axis, Control, Plan, PlanError, typed_axes};
 
@@ -154,7 +154,7 @@ impl OfMap {
     /// The two axes with their names.
     fn sides(&self) -> [(String, &PlaneAxis); 2] {
         let units = Units::of_plan(&self.plan);
-        let name = |axis: usize| units.column_of_coordinate(Self::axes(&self.plan)[axis].vary).to_owned();
+        let name = |axis: usize| Self::axes(&self.plan)[axis].vary.column(&units).to_owned();
         [(name(0), &self.frame.x), (name(1), &self.frame.y)]
     }
 
