@@ -44,12 +44,6 @@ impl FigureAxis {
         Self { ticks: Some(ticks.into_iter().collect()), ..self }
     }
 
-    /// Ticks without numbers.
-    #[must_use]
-    pub fn without_numbers(self) -> Self {
-        Self { numbers: false, ..self }
-    }
-
     /// The range to draw: finite, not empty, and positive on a logarithmic axis, whatever range was given. `data` are
     /// the extremes of the marks.
     pub(crate) fn resolve(&self, data: Option<(f64, f64)>) -> (f64, f64) {

@@ -87,12 +87,6 @@ impl Figure {
         Self { colour_bar: Some(bar), ..self }
     }
 
-    /// Replaces all colours by greys of equal luminance.
-    #[must_use]
-    pub fn grey(self) -> Self {
-        Self { grey: true, ..self }
-    }
-
     /// Sets the size of the whole figure, with its legend, in millimetres on paper. Text, lines and marks keep their sizes.
     ///
     /// # Errors
@@ -113,12 +107,6 @@ impl Figure {
         } else {
             Err(refuse())
         }
-    }
-
-    /// Sets the prefix of ids.
-    #[must_use]
-    pub fn id(self, prefix: impl Into<String>) -> Self {
-        Self { id: prefix.into(), ..self }
     }
 }
 
@@ -160,9 +148,9 @@ mod tests {
             let picture = resvg::tiny_skia::Pixmap::decode_png(&png).map_err(|e| PlotError::Png(e.to_string()))?;
             Ok(picture.pixels().iter().any(|p| p.red() != p.green() || p.green() != p.blue()))
         };
-        assert!(coloured(&colourful)? && !coloured(&colourful.clone().grey())?);
+        assert!(coloured(&colourful)? && !coloured(&Figure { grey: true, ..colourful.clone() })?);
         // a title is text, not a colour
-        assert!(figure().title("#d55e00 ok").grey().to_svg().contains("#d55e00 ok"));
+        assert!(Figure { grey: true, ..figure().title("#d55e00 ok") }.to_svg().contains("#d55e00 ok"));
         Ok(())
     }
 }

@@ -76,7 +76,7 @@ mod tests {
             (count("v7"), count("<text"))
         };
         let (marks, texts) = draw(FigureAxis::new("x"));
-        let (bare_marks, bare_texts) = draw(FigureAxis::new("x").without_numbers());
+        let (bare_marks, bare_texts) = draw(FigureAxis { numbers: false, ..FigureAxis::new("x") });
         assert!(marks >= 2 && texts > bare_texts);
         assert_eq!(marks, bare_marks);
     }

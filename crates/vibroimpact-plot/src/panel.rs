@@ -39,12 +39,6 @@ impl Panel {
         Self { caption: Some(markup.into()), ..self }
     }
 
-    /// Leaves out frame, ticks, numbers and labels.
-    #[must_use]
-    pub fn bare(self) -> Self {
-        Self { bare: true, ..self }
-    }
-
     /// Adds a mark on top of the others.
     #[must_use]
     pub fn with(mut self, mark: impl Into<Mark>) -> Self {
@@ -177,8 +171,10 @@ mod tests {
     fn a_drawing_has_marks_only() {
         let panel = || Panel::new(FigureAxis::new("x").range(0.0, 1.0), FigureAxis::new("y").range(0.0, 1.0));
         let svg = |panel| crate::Figure::new(panel).to_svg();
-        let (framed, bare) =
-            (svg(panel()), svg(panel().bare().with(crate::Line::new([0.0, 1.0], [0.0, 1.0], Colour::BLACK))));
+        let (framed, bare) = (
+            svg(panel()),
+            svg(Panel { bare: true, ..panel() }.with(crate::Line::new([0.0, 1.0], [0.0, 1.0], Colour::BLACK))),
+        );
         assert!(framed.contains("<text") && !bare.contains("<text") && bare.contains("stroke-linejoin"), "{bare}");
     }
 

@@ -175,7 +175,8 @@ mod tests {
 
     #[test]
     fn text_is_escaped_and_ids_are_prefixed() {
-        let figure = Figure::new(every_mark(&[0.0, 1.0], &[0.0, 1.0])).title("a < b").id("fig7-\"><x");
+        let figure = Figure::new(every_mark(&[0.0, 1.0], &[0.0, 1.0])).title("a < b");
+        let figure = Figure { id: "fig7-\"><x".to_owned(), ..figure };
         let svg = figure.to_svg();
         assert!(svg.contains("<title>a &lt; b</title>") && svg.contains(" &lt;&amp;&gt;"));
         assert!(svg.contains("id=\"fig7-x") && !svg.contains("id=\"clip") && !svg.contains("<x"));

@@ -131,7 +131,7 @@ fn draw(osc: &Oscillator, [exact, seen]: [&Escape; 2], coarser: &[Escape; 3], mu
         Points::new(ks.clone(), seen.impacts.iter().map(|i| i.interval).collect::<Vec<_>>(), SERIES[0]).size(6.0);
     let until = FOLLOWED as f64;
     let mut upper = Panel::new(
-        FigureAxis::new("").range(0.0, until).without_numbers(),
+        FigureAxis { numbers: false, ..FigureAxis::new("").range(0.0, until) },
         FigureAxis::new("interval *z*").range(0.0, 2.3 * period),
     )
     .with(HLine::new(period, guide))

@@ -56,7 +56,7 @@ impl Folder {
 
     /// Writes `name.svg` and `name.png` and returns the SVG text.
     pub(crate) fn figure(&self, name: &str, figure: Figure) -> Result<String, Error> {
-        let figure = figure.id(format!("{name}-"));
+        let figure = Figure { id: format!("{name}-"), ..figure };
         let svg = figure.to_svg();
         self.write(&format!("{name}.svg"), svg.as_bytes())?;
         self.write(&format!("{name}.png"), &figure.to_png(DPI_300)?)?;

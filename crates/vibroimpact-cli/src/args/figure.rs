@@ -92,9 +92,7 @@ impl FigureArgs {
             Some(text) => figure.title = Some(plain(text)),
             None => {}
         }
-        if self.greyscale {
-            figure = figure.grey();
-        }
+        figure.grey |= self.greyscale;
         Ok(match self.size {
             Some(Paper { width, height }) => figure.fit(width, height)?,
             None => figure,

@@ -174,13 +174,6 @@ impl Points {
         self
     }
 
-    /// Draws outlines only.
-    #[must_use]
-    pub fn hollow(mut self) -> Self {
-        self.style.filled = false;
-        self
-    }
-
     /// Sets the outline.
     #[must_use]
     pub fn rim(mut self, colour: Colour) -> Self {

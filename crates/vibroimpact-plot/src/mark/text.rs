@@ -64,12 +64,6 @@ impl Text {
         Self { size, ..self }
     }
 
-    /// Removes the white outline.
-    #[must_use]
-    pub fn without_halo(self) -> Self {
-        Self { halo: false, ..self }
-    }
-
     pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
         let place = frame.at(self.x, self.y);
         if !frame.holds(place) {

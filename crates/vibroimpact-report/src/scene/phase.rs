@@ -141,7 +141,9 @@ fn draw_jumps(panel: &mut Panel, jumps: &[(f64, f64, f64)]) -> Stroke {
         Points::new(xs, ys, SERIES[1]).size(8.0)
     };
     panel.add(ends(|jump| jump.1).rim(Colour::WHITE));
-    panel.add(ends(|jump| jump.2).hollow());
+    let mut after = ends(|jump| jump.2);
+    after.style.filled = false;
+    panel.add(after);
     stroke
 }
 

@@ -31,8 +31,7 @@ pub fn figure(source: &MachineSource) -> Result<Figure, MachineFileError> {
     let (width, height) = (right - left + 2.0 * AIR, high - low + 2.0 * AIR);
     let x = FigureAxis::new("").range(left - AIR, right + AIR);
     let y = FigureAxis::new("").range(low - AIR, high + AIR);
-    let mut panel = Panel::new(x, y).bare();
-    panel.marks = sketch.marks;
+    let panel = Panel { marks: sketch.marks, bare: true, ..Panel::new(x, y) };
     let title = source.title.as_deref().filter(|title| title.chars().count() as f64 * 14.0 < width * UNIT);
     let head = if title.is_some() { 60.0 } else { 20.0 };
     let figure = Figure::new(panel).size(width * UNIT, height * UNIT + head);
