@@ -193,11 +193,17 @@ mod tests {
     use vibroimpact_study::study::in_memory;
     use vibroimpact_study::{Control, Plan, Study};
 
-    fn packed(task: &str) -> (serde_json::Value, Vec<u8>) {
+    const MAP: &str = r#""map":{"axes":[{"vary":"inverse_beta","over":"0.5:2:7"},{"vary":"gap","over":"0:2:5"}],"starts":2,"impacts":200"#;
+
+    fn sheet(task: &str) -> Sheet {
         let plan = Plan::from_text(&format!(
             r#"{{"version":1,"system":{{"inverse_beta":1.3,"gap":0.75,"restitution":0.5}},"task":{{{task}}}}}"#
         ));
-        let bytes = pack(&in_memory(Study::new(&plan.unwrap()).unwrap(), &Control::default()).unwrap());
+        in_memory(Study::new(&plan.unwrap()).unwrap(), &Control::default()).unwrap()
+    }
+
+    fn packed(task: &str) -> (serde_json::Value, Vec<u8>) {
+        let bytes = pack(&sheet(task));
         let length = u32::from_le_bytes(bytes[..4].try_into().unwrap()) as usize;
         assert_eq!((4 + length) % 8, 0);
         (serde_json::from_slice(&bytes[4..4 + length]).unwrap(), bytes[4 + length..].to_vec())
@@ -236,13 +242,15 @@ mod tests {
     /// The values of a quantity are those of the motions; chaotic and undecided motions have none.
     #[test]
     fn a_quantity() {
-        let axes = r#"[{"vary":"inverse_beta","over":"0.5:2:7"},{"vary":"gap","over":"0:2:5"}]"#;
-        let task = format!(r#""map":{{"axes":{axes},"starts":2,"impacts":200,"fields":["impact_speed_max"]}}"#);
-        let (header, body) = packed(&task);
+        let (header, body) = packed(&format!(r#"{MAP},"fields":["impact_speed_max"]}}"#));
+        assert_eq!(header["shape"], serde_json::json!([5, 7]));
+        assert!(header["labels"]["10001"]["colour"].as_str().unwrap().starts_with('#'));
         let fields = header["fields"].as_array().unwrap();
         let names: Vec<_> = fields.iter().map(|field| field["name"].clone()).collect();
         assert_eq!(names, ["label", "share", "impact_speed_max"]);
+        assert_eq!((&fields[0]["per_point"], &fields[1]["type"]), (&2.into(), &"f64".into()));
         let labels = whole(&body, &fields[0]);
+        assert_eq!(labels.len(), 70);
         let begin = usize::try_from(fields[2]["offset"].as_u64().unwrap()).unwrap();
         let value = |k: usize| f64::from_le_bytes(body[begin + 8 * k..begin + 8 * k + 8].try_into().unwrap());
         let one = labels.iter().position(|code| *code == 10_001).unwrap();
@@ -253,12 +261,7 @@ mod tests {
 
     #[test]
     fn what_is_packed_is_unpacked() {
-        let axes = r#"[{"vary":"inverse_beta","over":"0.5:2:7"},{"vary":"gap","over":"0:2:5"}]"#;
-        let task = format!(r#""map":{{"axes":{axes},"starts":2,"impacts":200,"refine":4,"fields":["power"]}}"#);
-        let text = format!(
-            r#"{{"version":1,"system":{{"inverse_beta":1.3,"gap":0.75,"restitution":0.5}},"task":{{{task}}}}}"#
-        );
-        let sheet = in_memory(Study::new(&Plan::from_text(&text).unwrap()).unwrap(), &Control::default()).unwrap();
+        let sheet = sheet(&format!(r#"{MAP},"refine":4,"fields":["power"]}}"#));
         let bytes = pack(&sheet);
         let columns = unpack(&bytes, &sheet.fields, 35).unwrap();
         for ((field, packed), unpacked) in sheet.fields.iter().zip(&sheet.columns).zip(columns) {
@@ -266,17 +269,5 @@ mod tests {
         }
         assert!(unpack(&bytes[..100], &sheet.fields, 35).is_none_or(|all| all.iter().all(Option::is_none)));
         assert!(unpack(&bytes, &sheet.fields, 36).unwrap().iter().any(Option::is_none));
-    }
-
-    #[test]
-    fn a_map() {
-        let axes = r#"[{"vary":"inverse_beta","over":"0.5:2:7"},{"vary":"gap","over":"0:2:5"}]"#;
-        let (header, body) = packed(&format!(r#""map":{{"axes":{axes},"starts":2,"impacts":200}}"#));
-        assert_eq!(header["shape"], serde_json::json!([5, 7]));
-        assert_eq!(header["fields"][0]["per_point"], 2);
-        assert_eq!(header["fields"][1]["type"], "f64");
-        let labels = whole(&body, &header["fields"][0]);
-        assert_eq!(labels.len(), 70);
-        assert!(header["labels"]["10001"]["colour"].as_str().unwrap().starts_with('#'));
     }
 }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use axum::body::{Body, to_bytes};
+use axum::http::request::Builder;
 use axum::http::{Request, StatusCode, header};
 use serde_json::Value;
 use tower::ServiceExt;
@@ -22,10 +23,12 @@ fn plan(task: &str) -> String {
 }
 
 async fn ask(path: &str, task: &str) -> (StatusCode, String, Vec<u8>) {
-    let request = Request::post(path)
-        .header(header::HOST, format!("127.0.0.1:{PORT}"))
-        .header(header::CONTENT_TYPE, "application/json")
-        .body(Body::from(plan(task)));
+    let request = Request::post(path).header(header::CONTENT_TYPE, "application/json");
+    send(request, Body::from(plan(task))).await
+}
+
+async fn send(request: Builder, body: Body) -> (StatusCode, String, Vec<u8>) {
+    let request = request.header(header::HOST, format!("127.0.0.1:{PORT}")).body(body);
     let response = app(Explorer::new(PORT, 0)).oneshot(request.unwrap()).await.unwrap();
     let kind = response.headers().get(header::CONTENT_TYPE).map_or("", |kind| kind.to_str().unwrap()).to_owned();
     (response.status(), kind, to_bytes(response.into_body(), usize::MAX).await.unwrap().to_vec())
@@ -224,10 +227,8 @@ async fn a_motion_as_points_and_events() {
 }
 
 async fn get(path: &str) -> (StatusCode, Value) {
-    let request = Request::get(path).header(header::HOST, format!("127.0.0.1:{PORT}")).body(Body::empty());
-    let response = app(Explorer::new(PORT, 0)).oneshot(request.unwrap()).await.unwrap();
-    let status = response.status();
-    (status, serde_json::from_slice(&to_bytes(response.into_body(), usize::MAX).await.unwrap()).unwrap())
+    let (status, _, body) = send(Request::get(path), Body::empty()).await;
+    (status, serde_json::from_slice(&body).unwrap())
 }
 
 /// the units of the body of docs/units.md. With them in the plan, a motion is in metres and seconds.

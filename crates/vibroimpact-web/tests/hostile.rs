@@ -111,6 +111,9 @@ fn no_way_out_of_the_page() {
         "/assets/%2fetc%2fpasswd",
         "/../../etc/passwd",
         "/assets/index.html%00",
+        "/assets/./index.html",
+        "/assets/index.html/",
+        "/assets/none.js",
         "/assets/",
         "/nothing",
     ] {

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use axum::body::{Body, to_bytes};
-use axum::http::{Request, header};
+use axum::http::{Request, StatusCode, header};
 use serde_json::Value;
 use tower::ServiceExt;
 use vibroimpact::verdict::settle;
@@ -21,17 +21,20 @@ struct Tile {
     own: Vec<bool>,
 }
 
-/// The bytes of an answer.
-async fn answer(explorer: &Explorer, path: &str, plan: &str) -> Vec<u8> {
+/// The status and the bytes of an answer.
+async fn send(explorer: &Explorer, path: &str, plan: &str) -> (StatusCode, Vec<u8>) {
     let request = Request::post(path)
         .header(header::HOST, format!("127.0.0.1:{PORT}"))
         .header(header::CONTENT_TYPE, "application/json")
         .body(Body::from(plan.to_owned()));
     let response = app(explorer.clone()).oneshot(request.unwrap()).await.unwrap();
-    let status = response.status();
-    let bytes = to_bytes(response.into_body(), usize::MAX).await.unwrap();
+    (response.status(), to_bytes(response.into_body(), usize::MAX).await.unwrap().to_vec())
+}
+
+async fn answer(explorer: &Explorer, path: &str, plan: &str) -> Vec<u8> {
+    let (status, bytes) = send(explorer, path, plan).await;
     assert_eq!(status, 200, "{}", String::from_utf8_lossy(&bytes));
-    bytes.to_vec()
+    bytes
 }
 
 async fn ask(path: &str, plan: &str) -> Tile {
@@ -209,14 +212,9 @@ async fn a_whole_tile_without_what_was_before_is_the_same() {
         ("/api/whole?within=1", text.replace(r#""seed":1"#, r#""seed":1,"refine":8"#), "has no refine"),
         ("/api/whole?within=1", plan_of("basin", ["x", "v"], [-1.0, 0.5, -1.0, 1.0], ([4, 4], "")), "piece of a map"),
     ] {
-        let request = Request::post(path)
-            .header(header::HOST, format!("127.0.0.1:{PORT}"))
-            .header(header::CONTENT_TYPE, "application/json")
-            .body(Body::from(text));
-        let response = app(Explorer::new(PORT, 2)).oneshot(request.unwrap()).await.unwrap();
-        assert_eq!(response.status(), 400);
-        let said = to_bytes(response.into_body(), usize::MAX).await.unwrap();
-        assert!(String::from_utf8_lossy(&said).contains(sentence), "{}", String::from_utf8_lossy(&said));
+        let (status, said) = send(&Explorer::new(PORT, 2), path, &text).await;
+        let said = String::from_utf8_lossy(&said);
+        assert!(status == 400 && said.contains(sentence), "{said}");
     }
 }
 
