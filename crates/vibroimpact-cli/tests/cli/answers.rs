@@ -1,6 +1,6 @@
 //! Tests of the output of the commands, field by field.
 
-use crate::{S, json, printed, ran};
+use crate::{Folder, S, has, json, list, number, printed, texts};
 use serde_json::Value;
 
 #[test]
@@ -15,11 +15,11 @@ fn the_papers_points() {
         ("U", "--inverse-beta 1.11 --gap 3", vec!["chaotic"]),
     ] {
         let answer = json(&format!("attractors {system} --restitution 0.5 --starts 200"));
-        let motions = answer["motions"].as_array().unwrap();
-        let mut found: Vec<&str> = motions.iter().map(|m| m["label"].as_str().unwrap()).collect();
+        let motions = list(&answer["motions"]);
+        let mut found = texts(&answer["motions"], "label");
         found.sort_unstable();
         assert_eq!(found, labels, "{name}");
-        let share: f64 = motions.iter().map(|m| m["share"].as_f64().unwrap()).sum();
+        let share: f64 = motions.iter().map(|m| number(&m["share"])).sum();
         assert!((share - 1.0).abs() < 1e-12 && answer["starts"] == 200);
         let settled = json(&format!("settle {system} --restitution 0.5"));
         let label = settled["motion"]["label"].as_str().unwrap();
@@ -38,27 +38,22 @@ fn a_periodic_motion_has_its_cycle_and_multipliers() {
     assert_eq!(motion["kind"], "periodic");
     assert_eq!((&motion["impacts"], &motion["periods"]), (&4.into(), &1.into()));
     assert_eq!((&motion["sticks"], &motion["stable"]), (&0.into(), &true.into()));
-    let cycle = motion["cycle"].as_array().unwrap();
+    let cycle = list(&motion["cycle"]);
     assert_eq!(cycle.len(), 4);
     let first = &cycle[0];
-    assert!((first["phase"].as_f64().unwrap() - 0.185_568_221_573_524_7).abs() < 1e-12);
-    assert!((first["speed"].as_f64().unwrap() - 1.513_140_069_144_015_8).abs() < 1e-12);
+    assert!((number(&first["phase"]) - 0.185_568_221_573_524_7).abs() < 1e-12);
+    assert!((number(&first["speed"]) - 1.513_140_069_144_015_8).abs() < 1e-12);
     assert!(first["time"] == 0.0 && cycle.windows(2).all(|pair| pair[0]["time"].as_f64() < pair[1]["time"].as_f64()));
     assert_eq!((&first["q"], &motion["counts"]["upper"]), (&serde_json::json!([0.25]), &4.into()));
     // the state lies on the cycle
-    let state = |name: &str| motion["state"][name][0].as_f64().unwrap();
-    let from = format!(
-        "--x={:?} --v={:?} --phase {:?}",
-        state("q"),
-        state("qdot"),
-        motion["state"]["phase"].as_f64().unwrap()
-    );
+    let state = |name: &str| number(&motion["state"][name][0]);
+    let from = format!("--x={:?} --v={:?} --phase {:?}", state("q"), state("qdot"), number(&motion["state"]["phase"]));
     let flown = json(&format!("simulate --inverse-beta 1.8 --gap 0.25 --restitution 0.5 {from} --impacts 4"));
-    let speeds = |of: &Value| of.as_array().unwrap().iter().map(|at| at["speed"].as_f64().unwrap()).fold(0.0, f64::max);
+    let speeds = |of: &Value| list(of).iter().map(|at| number(&at["speed"])).fold(0.0, f64::max);
     assert!((speeds(&flown["events"]) - speeds(&motion["cycle"])).abs() < 1e-12);
-    let period = motion["period"].as_f64().unwrap();
+    let period = number(&motion["period"]);
     assert!((period - 1.8 * core::f64::consts::TAU).abs() < 1e-12);
-    let product = motion["multipliers"][0][0].as_f64().unwrap() * motion["multipliers"][1][0].as_f64().unwrap();
+    let product = number(&motion["multipliers"][0][0]) * number(&motion["multipliers"][1][0]);
     assert!((product - 0.5_f64.powi(8)).abs() < 1e-12);
 }
 
@@ -81,14 +76,11 @@ fn other_kinds_of_motion() {
     assert_eq!((&chatter["label"], &chatter["sticks"]), (&"inf/1".into(), &1.into()));
     assert_eq!(chatter["impacts"], Value::Null);
     let release = core::f64::consts::PI + 0.5_f64.asin();
-    let events = chatter["cycle"].as_array().unwrap();
+    let events = list(&chatter["cycle"]);
     let [stick, leaves] = &events[events.len() - 2..] else { panic!("{chatter}") };
-    assert_eq!(
-        (&stick["kind"], &stick["chatter"], &leaves["kind"]),
-        (&"stick".into(), &true.into(), &"release".into())
-    );
-    assert!((leaves["phase"].as_f64().unwrap() - release).abs() < 1e-12);
-    assert!(stick["phase"].as_f64().unwrap() < release);
+    assert!(stick["kind"] == "stick" && stick["chatter"] == true && leaves["kind"] == "release", "{chatter}");
+    assert!((number(&leaves["phase"]) - release).abs() < 1e-12);
+    assert!(number(&stick["phase"]) < release);
 }
 
 #[test]
@@ -102,23 +94,18 @@ fn the_papers_own_rule() {
 #[test]
 fn events_one_after_another() {
     let answer = json(&format!("simulate {S} --impacts 7"));
-    assert_eq!(answer["events"].as_array().unwrap().len(), 7);
-    for event in answer["events"].as_array().unwrap() {
+    assert_eq!(list(&answer["events"]).len(), 7);
+    for event in list(&answer["events"]) {
         assert_eq!(event["kind"], "impact");
         let (before, after) = (&event["speed"], &event["qdot"][0]);
-        assert_eq!(-0.5 * before.as_f64().unwrap(), after.as_f64().unwrap());
+        assert_eq!(-0.5 * number(before), number(after));
     }
     assert_eq!(answer["end"]["reason"], "impact_limit");
     assert_eq!(answer["end"]["time"], answer["events"][6]["time"]);
 
     let chatter = json("simulate --beta 0.9 --gap -0.5 --restitution 0.5 --periods 2");
     assert_eq!(chatter["end"]["reason"], "time_limit");
-    let kinds = |answer: &Value| -> Vec<String> {
-        let kind = |e: &Value| e["kind"].as_str().unwrap().to_owned();
-        answer["events"].as_array().unwrap().iter().map(kind).collect()
-    };
-    let found = kinds(&chatter);
-    assert_eq!((found[0].as_str(), found[1].as_str()), ("stick", "release"));
+    assert_eq!(texts(&chatter["events"], "kind")[..2], ["stick", "release"]);
     assert_eq!(chatter["start"]["q"][0], -0.5, "on the stop when the gap is negative");
 
     let free = json("simulate --inverse-beta 0.7 --gap 9 --restitution 0.5");
@@ -126,19 +113,18 @@ fn events_one_after_another() {
     assert_eq!(free["end"]["horizon"]["kind"], "forever");
     let stuck = json("simulate --beta 0.9 --gap -1.5 --restitution 0.5 --x -3");
     assert_eq!(stuck["end"]["reason"], "stuck");
-    assert_eq!(kinds(&stuck).last().unwrap(), "stick");
+    assert_eq!(texts(&stuck["events"], "kind").last(), Some(&"stick"));
 }
 
 #[test]
 fn orbits_stable_or_not() {
     let one = json("orbit --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/1");
-    let physical: Vec<&Value> =
-        one["orbits"].as_array().unwrap().iter().filter(|orbit| orbit["admissible"] == true).collect();
+    let physical: Vec<&Value> = list(&one["orbits"]).iter().filter(|orbit| orbit["admissible"] == true).collect();
     assert_eq!(physical.len(), 1);
     assert_eq!(physical[0]["stable"], false);
     assert_eq!(physical[0]["earlier_contact"], Value::Null);
     let half = json("orbit --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/2");
-    assert!(half["orbits"].as_array().unwrap().iter().any(|orbit| orbit["stable"] == true && orbit["label"] == "1/2"));
+    assert!(list(&half["orbits"]).iter().any(|orbit| orbit["stable"] == true && orbit["label"] == "1/2"));
 }
 
 /// An inadmissible solution passes through the stop: simulated from its impact, the motion hits the stop where the
@@ -150,14 +136,13 @@ fn solutions_that_are_no_motions() {
     let orbit = &answer["orbits"][0];
     assert_eq!((&orbit["admissible"], &orbit["earlier_contact"]["stop"]), (&false.into(), &"upper".into()));
     assert_eq!(orbit["earlier_contact"]["after_impact"], 1);
-    let number = |value: &Value| value.as_f64().unwrap();
     let at = &orbit["cycle"][0];
     let (velocity, phase) = (-0.5 * number(&at["speed"]), number(&at["phase"]));
     let flown = json(&format!("simulate {system} --x 1 --v {velocity} --phase {phase} --impacts 1"));
     let time = number(&orbit["earlier_contact"]["time"]);
     assert!((number(&flown["events"][0]["time"]) - time).abs() < 1e-9 && time < number(&orbit["period"]));
     let text = printed(&format!("orbit {system} --label 1/1"));
-    assert!(text.contains("earlier contact: after impact 1 it meets the stop at a time of 3.93216, not"), "{text}");
+    has(&text, &["earlier contact: after impact 1 it meets the stop at a time of 3.93216, not"]);
     // the motion without impacts would pass the stop first at sin(phase - lag) = gap/amplitude
     let damped = "orbit --beta 1.2 --gap 0.5 --restitution 0.5 --damping 0.05 --label 0";
     let contact = json(damped)["orbits"][0]["earlier_contact"].clone();
@@ -165,21 +150,19 @@ fn solutions_that_are_no_motions() {
     let (a, b) = (1.0 - 1.2_f64 * 1.2, 2.0 * 0.05 * 1.2_f64);
     let phase = 1.2 * number(&contact["time"]);
     assert!(((a * phase.sin() - b * phase.cos()) / (a * a + b * b) - 0.5).abs() < 1e-12, "{phase}");
-    let text = printed(damped);
-    assert!(text.contains("it would swing through the stop, which it meets 2.58783 after phase 0"), "{text}");
+    has(&printed(damped), &["it would swing through the stop, which it meets 2.58783 after phase 0"]);
 }
 
 #[test]
 fn grids_in_short() {
     let basin = json(&format!("basin {S} --x -4:0.75:20 --v -4:4:20"));
     assert_eq!(basin["starts"], 400);
-    assert_eq!(basin["motions"].as_array().unwrap().len(), 2);
+    assert_eq!(list(&basin["motions"]).len(), 2);
     let map = json("map --inverse-beta 0.6:1.3:2 --gap 0.75:0.75:1 --restitution 0.5 --starts 200");
-    assert_eq!(map["points"].as_array().unwrap().len(), 2);
+    assert_eq!(list(&map["points"]).len(), 2);
     assert_eq!(map["points"][1]["motions"][0]["label"], "2/1");
-    assert_eq!(basin["cells"].as_array().unwrap().len(), 400);
-    let labels: Vec<&str> = map["labels"].as_array().unwrap().iter().map(|l| l["label"].as_str().unwrap()).collect();
-    assert_eq!(labels, ["0", "1/1", "2/1"]);
+    assert_eq!(list(&basin["cells"]).len(), 400);
+    assert_eq!(texts(&map["labels"], "label"), ["0", "1/1", "2/1"]);
 }
 
 #[test]
@@ -190,7 +173,7 @@ fn a_machine_in_physical_units() {
     assert_eq!((&plain["system"]["beta"], &plain["system"]["gap"]), (&1.25.into(), &2.0.into()));
     assert_eq!(plain["system"]["scales"]["length_m"], 0.005);
     let si = json(&format!("settle {machine} --units si"));
-    let velocity = |answer: &Value| answer["motion"]["cycle"][0]["speed"].as_f64().unwrap();
+    let velocity = |answer: &Value| number(&answer["motion"]["cycle"][0]["speed"]);
     assert!((velocity(&si) - 0.1 * velocity(&plain)).abs() < 1e-15);
 }
 
@@ -209,8 +192,7 @@ fn text_help_and_pages() {
         ("map --help".into(), "Example"),
         ("--version".into(), "vibro "),
     ] {
-        let said = printed(&line);
-        assert!(said.contains(expected), "{line}: {said}");
+        has(&printed(&line), &[expected]);
     }
 }
 
@@ -221,7 +203,7 @@ fn f05_a_landing_without_impact_rests_on_the_stop() {
     let line = "--beta 0.2 --gap 0 --restitution 0";
     for line in [format!("settle {line}"), format!("orbit {line} --label 0")] {
         let said = printed(&line);
-        assert!(said.contains("0: it rests on the stop once every forcing period, without impacts"), "{said}");
+        has(&said, &["0: it rests on the stop once every forcing period, without impacts"]);
         assert!(!said.contains("stays short"), "{said}");
     }
 }
@@ -233,8 +215,8 @@ fn f05_a_touch_is_listed_as_no_orbit() {
         |label: &str| json(&format!("orbit --beta 3 --gap 0.125 --restitution 0.5 --label {label}"))["orbits"].clone();
     assert_eq!(orbits("1/1").as_array().unwrap().len(), 0);
     let half = orbits("1/2");
-    assert_eq!(half.as_array().unwrap().len(), 1);
-    assert!(half[0]["cycle"][0]["speed"].as_f64().unwrap() > 0.5 && half[0]["admissible"] == true);
+    assert_eq!(list(&half).len(), 1);
+    assert!(number(&half[0]["cycle"][0]["speed"]) > 0.5 && half[0]["admissible"] == true);
 }
 
 /// A small budget leaves a chaotic motion undecided; the hint names a larger one, with which it is decided.
@@ -243,14 +225,12 @@ fn an_undecided_motion_names_the_flag_that_decides_it() {
     let chaotic = "--inverse-beta 1.11 --gap 3 --restitution 0.5";
     for command in ["settle", "attractors --starts 4"] {
         let line = format!("{command} {chaotic} --impacts 50");
-        let (_, text, remarks) = ran(".", &line);
-        assert!(text.contains("undecided"), "{text}");
-        assert!(remarks.contains("hint: --impacts 20000 follows"), "{line}: {remarks}");
-        let (_, text, remarks) = ran(".", &line.replace("--impacts 50", "--impacts 20000"));
-        assert!(
-            text.contains("chaotic") && !text.contains("undecided") && !remarks.contains("--impacts"),
-            "{text}{remarks}"
-        );
+        let (_, text, remarks) = Folder::new().ran(&line);
+        has(&text, &["undecided"]);
+        has(&remarks, &["hint: --impacts 20000 follows"]);
+        let (_, text, remarks) = Folder::new().ran(&line.replace("--impacts 50", "--impacts 20000"));
+        let said = text + &remarks;
+        assert!(said.contains("chaotic") && !said.contains("undecided") && !said.contains("--impacts"), "{said}");
     }
     let decided = json(&format!("settle {chaotic} --impacts 30000"));
     assert_eq!(decided["plan"]["task"]["settle"]["impacts"], 30_000);

@@ -1,7 +1,6 @@
 //! Tests of `--colour`: maps and basins in the colours of a quantity, and of maps over one axis.
 
-use crate::{printed_in, refused, refused_in};
-use std::path::Path;
+use crate::{Folder, has, refuse};
 
 const MAP: &str = "map --inverse-beta 1.2:1.4:5 --gap 0.5:1:4 --restitution 0.5 --starts 8";
 const LINE: &str = "map --inverse-beta 1.3 --gap 0.5:3:11 --restitution 0.5 --starts 8";
@@ -9,16 +8,10 @@ const BASIN: &str = "basin --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --x -
 /// A system in physical units: omega_n = 20 rad/s, F/k = 0.005 m.
 const MACHINE: &str = "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --gap-m 0.001:0.004:4 --restitution 0.6";
 
-fn drawn(folder: &Path, line: &str) -> String {
-    printed_in(folder, &format!("{line} --force --plot figure.svg"));
-    std::fs::read_to_string(folder.join("figure.svg")).expect("the figure")
-}
-
 /// A store gives the figure of the result in memory, and says what it lacks.
 #[test]
 fn a_store_has_the_same_figure() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = folder.path();
+    let folder = Folder::new();
     for (k, line) in [
         format!("{MAP} --colour impact-speed-max"),
         format!("{MAP} --fields power,impact-speed-max --colour impact_speed_max --of smallest"),
@@ -32,27 +25,26 @@ fn a_store_has_the_same_figure() {
     .iter()
     .enumerate()
     {
-        let memory = drawn(folder, line);
-        assert_eq!(drawn(folder, &format!("{line} --store s{k}.zarr")), memory, "{line}");
+        let memory = folder.drawn(line, "a.svg");
+        assert_eq!(folder.drawn(&format!("{line} --store s{k}.zarr"), "a.svg"), memory, "{line}");
         let colour = &line[line.find(" --colo").expect("colours")..];
-        printed_in(folder, &format!("plot s{k}.zarr again.svg --force {colour}"));
-        assert_eq!(std::fs::read_to_string(folder.join("again.svg")).expect("the figure"), memory, "{line}");
+        folder.printed(&format!("plot s{k}.zarr again.svg --force {colour}"));
+        assert_eq!(folder.read("again.svg"), memory, "{line}");
     }
-    let said = refused_in(folder, "plot s3.zarr b.svg --colour power");
-    assert!(said.contains("there are no values of `power`: the plan asks for impact-speed-max"), "{said}");
-    printed_in(folder, "diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0:1:3 --store d.zarr");
-    let said = refused_in(folder, "plot d.zarr d.svg --colour power");
-    assert!(said.contains("only maps and basins have colours by a quantity"), "{said}");
+    folder.printed("diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0:1:3 --store d.zarr");
+    let none = "there are no values of `power`: the plan asks for impact-speed-max";
+    folder.refuse([
+        ("plot s3.zarr b.svg --colour power", none),
+        ("plot d.zarr d.svg --colour power", "only maps and basins have colours by a quantity"),
+    ]);
 }
 
 #[test]
 fn the_bar_says_what_is_shown_in_which_unit() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let of = |line: &str| drawn(folder.path(), line);
+    let folder = Folder::new();
+    let of = |line: &str| folder.drawn(line, "a.svg");
     let svg = of(&format!("{MAP} --colour impact-speed-max"));
-    for text in ["largest impact speed<", "<linearGradient", "where motions coexist: the largest value<"] {
-        assert!(svg.contains(text), "{text}: {svg}");
-    }
+    has(&svg, &["largest impact speed<", "<linearGradient", "where motions coexist: the largest value<"]);
     let given = of(&format!("{MAP} --colour impact-speed-max --colour-range -3:7"));
     // the ends of the bar are ticks
     assert!(given.contains(">6<") && !svg.contains(">6<"), "{given}");
@@ -73,34 +65,26 @@ fn the_bar_says_what_is_shown_in_which_unit() {
 
 #[test]
 fn a_map_over_one_axis_has_shares_or_dots() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let shares = drawn(folder.path(), LINE);
-    for text in ["share of starts<", "1/1<", "2/1<"] {
-        assert!(shares.contains(text), "{text}: {shares}");
-    }
-    assert_eq!(drawn(folder.path(), &format!("{LINE} --store line.zarr")), shares);
-    let dots = drawn(folder.path(), &format!("{LINE} --colour impact-speed-max"));
+    let folder = Folder::new();
+    let shares = folder.drawn(LINE, "a.svg");
+    has(&shares, &["share of starts<", "1/1<", "2/1<"]);
+    assert_eq!(folder.drawn(&format!("{LINE} --store line.zarr"), "a.svg"), shares);
+    let dots = folder.drawn(&format!("{LINE} --colour impact-speed-max"), "a.svg");
     assert!(dots.contains("largest impact speed<") && !dots.contains("<linearGradient"), "{dots}");
 }
 
 #[test]
 fn what_is_refused() {
-    for (line, sentence) in [
-        (format!("{MAP} --colour speed --plot a.svg"), "`speed` is no quantity; there are impact-speed-max"),
+    let falling = "--colour-range 2:1 is not LOW:HIGH with LOW < HIGH";
+    let map = |flags: &str| format!("{MAP} {flags} --plot a.svg");
+    let three = "map --inverse-beta 1:2:2 --gap 1:2:2 --restitution 0.5:0.6:2 --starts 1 --plot a.svg";
+    refuse([
+        (map("--colour speed"), "`speed` is no quantity; there are impact-speed-max"),
         (format!("{MAP} --colour power"), "--colour says what the figure shows\nhint: --plot FILE"),
-        (format!("{MAP} --colour-range 0:1 --plot a.svg"), "--colour-range says which values the colours have"),
-        (
-            format!("{MAP} --colour power --colour-range 2:1 --plot a.svg"),
-            "--colour-range 2:1 is not LOW:HIGH with LOW < HIGH",
-        ),
-        (format!("{MAP} --of worst --plot a.svg"), "--of says which motion has the colour"),
+        (map("--colour-range 0:1"), "--colour-range says which values the colours have"),
+        (map("--colour power --colour-range 2:1"), falling),
+        (map("--of worst"), "--of says which motion has the colour"),
         (format!("{LINE} --gap 1:2:2 --plot a.svg"), "cannot be used multiple times"),
-        (
-            "map --inverse-beta 1:2:2 --gap 1:2:2 --restitution 0.5:0.6:2 --starts 1 --plot a.svg".into(),
-            "two axes, not 3",
-        ),
-    ] {
-        let said = refused(&line);
-        assert!(said.contains(sentence), "{line}: {said}");
-    }
+        (three.to_owned(), "two axes, not 3"),
+    ]);
 }

@@ -1,6 +1,6 @@
 //! Tests of the table of `vibro diagram`, row by row.
 
-use crate::{json, printed, printed_in, refused, refused_in};
+use crate::{Folder, has, json, list, printed, refuse};
 
 /// The rows of a table, without the header.
 fn table(line: &str) -> Vec<Vec<String>> {
@@ -34,16 +34,12 @@ fn branches_are_in_the_table_and_the_figure() {
     let before = branches.iter().filter(|row| row[6] == "1/1" && number(&row[0]) < 1.8);
     assert!(before.clone().count() > 1 && before.clone().all(|row| row[2] == "stable"));
     // without labels those found on the line are followed; the summary has the events
-    let said = printed(&format!("{line} --branches"));
-    assert!(said.contains("flip of 1/1 at gap = 1.829"), "{said}");
-    for (more, sentence) in [
-        ("--show power --branches", "--branches has speeds or positions"),
-        ("--branches --json", "cannot be used with"),
-        ("--branches 1/0", "1/0"),
-    ] {
-        let said = refused(&format!("{line} {more}"));
-        assert!(said.contains(sentence), "{more}: {said}");
-    }
+    has(&printed(&format!("{line} --branches")), &["flip of 1/1 at gap = 1.829"]);
+    refuse([
+        (format!("{line} --show power --branches"), "--branches has speeds or positions"),
+        (format!("{line} --branches --json"), "cannot be used with"),
+        (format!("{line} --branches 1/0"), "1/0"),
+    ]);
 }
 
 #[test]
@@ -54,9 +50,9 @@ fn hysteresis_at_s_with_the_velocities_of_the_orbits() {
             rows.iter().filter(|row| row[0] == "0.75" && row[1] == sweep).map(|row| number(&row[5])).collect();
         found.sort_by(f64::total_cmp);
         let orbits = json(&format!("orbit --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --label {label}"));
-        let stable = orbits["orbits"].as_array().unwrap().iter().find(|orbit| orbit["stable"] == true).unwrap();
+        let stable = list(&orbits["orbits"]).iter().find(|orbit| orbit["stable"] == true).unwrap();
         let mut expected: Vec<f64> =
-            stable["cycle"].as_array().unwrap().iter().map(|point| point["speed"].as_f64().unwrap()).collect();
+            list(&stable["cycle"]).iter().map(|point| point["speed"].as_f64().unwrap()).collect();
         expected.sort_by(f64::total_cmp);
         assert_eq!(found.len(), expected.len(), "{sweep}: {found:?}");
         assert!(found.iter().zip(&expected).all(|(f, e)| (f - e).abs() < 1e-9), "{sweep}: {found:?} {expected:?}");
@@ -135,15 +131,13 @@ fn listed_values() {
         let task = &answer["plan"]["task"]["diagram"];
         let list = serde_json::json!([1.5, 0.75, 0.5]);
         assert_eq!((&answer["over"], &task["over"]), (&list, &list), "{line}");
-        for (over, sentence) in [
-            ("0.5,1.5,0.75", "the values of a diagram rise or fall, and those of the list do neither\nhint: sort them"),
-            ("0.5,0.5", "none of them twice, not 0.5"),
-            ("0.5,x", "`0.5,x` is no list of numbers"),
-            ("0.5", "range `0.5` is not A:B:N"),
-        ] {
-            let said = refused(&format!("{line} --over {over}"));
-            assert!(said.contains(sentence), "{over}: {said}");
-        }
+        let neither = "the values of a diagram rise or fall, and those of the list do neither\nhint: sort them";
+        refuse([
+            (format!("{line} --over 0.5,1.5,0.75"), neither),
+            (format!("{line} --over 0.5,0.5"), "none of them twice, not 0.5"),
+            (format!("{line} --over 0.5,x"), "`0.5,x` is no list of numbers"),
+            (format!("{line} --over 0.5"), "range `0.5` is not A:B:N"),
+        ]);
     }
     let rows = table("diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 2,0.6,0.5,0 --keep 1");
     let steps: Vec<String> = rows.iter().map(|row| format!("{} {}", row[0], row[1])).collect();
@@ -157,16 +151,12 @@ fn both_numbers_of_a_machine_are_named() {
     let said = printed(line);
     assert!(said.starts_with("2 values of frequency from 0.9 to 1, stop.anvil.gap from 0.4 to 0.5\n"), "{said}");
     let line = "branch --machine two-mass-hammer --vary frequency --to 1.01 --plot a.svg --virtual";
-    let said = refused(line);
-    assert!(said.contains("--virtual") && said.contains("--machine"), "{said}");
+    has(&crate::refused(line), &["--virtual", "--machine"]);
 }
 
 /// The figure of a diagram over the gap.
 fn drawn(line: &str) -> String {
-    let folder = tempfile::tempdir().expect("a folder");
-    let place = folder.path().join("a.svg");
-    printed_in(&folder, &format!("diagram --restitution 0.5 --vary gap {line} --plot a.svg"));
-    std::fs::read_to_string(place).expect("a figure is text")
+    Folder::new().drawn(&format!("diagram --restitution 0.5 --vary gap {line}"), "a.svg")
 }
 
 /// Where the dots or cells of a figure begin, from left to right.
@@ -219,12 +209,9 @@ fn a_line_through_two_parameters() {
     for (inverse, gap) in [("1.2", "1"), ("1.3", "0.75"), ("1.4", "0.5")] {
         let here: Vec<_> = rows.iter().filter(|row| row[0] == inverse).collect();
         assert!(!here.is_empty() && here.iter().all(|row| row[1] == gap), "{inverse}: {rows:?}");
-        let alone = table(&format!(
-            "diagram --restitution 0.5 --direction scatter --starts 3 --over {gap}:{gap}:1 --vary gap --inverse-beta {inverse}"
-        ));
-        let shown =
-            |rows: &[&Vec<String>], skip: usize| rows.iter().map(|row| row[skip..].to_vec()).collect::<Vec<_>>();
-        assert_eq!(shown(&here, 2), shown(&alone.iter().collect::<Vec<_>>(), 1));
+        let scatter = "diagram --restitution 0.5 --direction scatter --starts 3";
+        let alone = table(&format!("{scatter} --over {gap}:{gap}:1 --vary gap --inverse-beta {inverse}"));
+        assert!(here.len() == alone.len() && here.iter().zip(&alone).all(|(row, alone)| row[2..] == alone[1..]));
     }
     let answer = json(&format!("{line} --also gap=1:0.5"));
     assert_eq!(answer["also"], serde_json::json!({ "parameter": "gap", "from": 1.0, "to": 0.5 }));
@@ -233,8 +220,7 @@ fn a_line_through_two_parameters() {
     let machine = "diagram --mass-kg 2 --stiffness-n-per-m 8000 --force-n 40 --frequency-hz 10 --gap-m 0.004 \
                    --restitution 0.7 --units si --vary damping --over 0.01:0.02:2 --also gap-m=0.004:0.005";
     assert_eq!(table(machine), table(&machine.replace("gap-m=", "gap=")));
-    let said = refused(&machine.replace("gap-m=", "gap_m="));
-    assert!(said.contains("does not begin with PARAMETER=; parameters: beta"));
+    refuse([(machine.replace("gap-m=", "gap_m="), "does not begin with PARAMETER=; parameters: beta")]);
     let rows = table(&machine.replace("gap-m=", "gap="));
     let pairs: Vec<(&str, &str)> = rows.iter().map(|row| (row[0].as_str(), row[1].as_str())).collect();
     assert!(pairs.iter().all(|pair| [("0.01", "0.004"), ("0.02", "0.005")].contains(pair)), "{pairs:?}");
@@ -245,7 +231,7 @@ fn a_line_through_two_parameters() {
 fn a_quantity_of_the_settled_motion() {
     let line = "diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0.5:1:3 --show impact-speed-max";
     let table = printed(&format!("{line} --csv -"));
-    let rows: Vec<Vec<&str>> = table.lines().map(|row| row.split(',').collect()).collect();
+    let rows = crate::rows(&table);
     assert_eq!(rows[0], ["gap", "sweep", "kind", "impact_speed_max"]);
     assert_eq!(rows.len(), 1 + 2 * 3, "{table}");
     let value = |gap: &str, sweep: &str| {
@@ -264,25 +250,16 @@ fn a_quantity_of_the_settled_motion() {
     let empty = printed(&format!("{machine} impact_speed_mean --direction down --csv -"));
     assert!(empty.starts_with("gap_m,sweep,kind,impact_speed_mean_m_per_s\n"), "{empty}");
     assert!(empty.lines().any(|row| row == "0.3,down,none,"), "no impacts have no mean speed: {empty}");
-    let folder = tempfile::tempdir().expect("a folder");
-    let svg = folder.path().join("a.svg");
-    printed(&format!("{machine} impact-speed-max --plot {}", svg.display()));
-    assert!(std::fs::read_to_string(svg).expect("the figure").contains("largest impact speed (m/s)"));
-    for (options, sentence) in [
-        ("--store a.zarr", "a diagram of a quantity is computed in memory, and has no store"),
-        ("--show everything", "`everything` is no quantity; there are impact-speed-max"),
-    ] {
-        let line = if options.contains("show") {
-            line.replace("--show impact-speed-max", options)
-        } else {
-            format!("{line} {options}")
-        };
-        let complaint = refused_in(&folder, &line);
-        assert!(complaint.contains(sentence), "{complaint}");
-    }
+    let folder = Folder::new();
+    has(&folder.drawn(&format!("{machine} impact-speed-max"), "a.svg"), &["largest impact speed (m/s)"]);
+    let no_store = "a diagram of a quantity is computed in memory, and has no store";
+    let everything = line.replace("impact-speed-max", "everything");
+    folder.refuse([
+        (format!("{line} --store a.zarr"), no_store),
+        (everything, "`everything` is no quantity; there are impact-speed-max"),
+    ]);
     // a plan in a file is refused too
     let plan = r#"{"version":1,"system":{"inverse_beta":1.3,"gap":0,"restitution":0.5},"task":{"diagram":{"vary":"gap","over":"0:1:3","show":{"quantity":"power"}}}}"#;
-    std::fs::write(folder.path().join("plan.json"), plan).expect("a plan");
-    let said = refused_in(&folder, "run plan.json");
-    assert!(said.contains("has no store"), "{said}");
+    folder.write("plan.json", plan);
+    folder.refuse([("run plan.json", "has no store")]);
 }

@@ -1,14 +1,13 @@
 //! Special cases of the interface: exact ends of ranges, `-` for stdout, empty places, and counts in texts.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use crate::{S, json, refused_in, vibro};
-use std::fs;
+use crate::{Folder, S, has, json, list, number};
 
 /// Exit code, stdout and stderr.
 fn ran(line: &str) -> (Option<i32>, String, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let ended = crate::ran(&folder, line);
-    assert!(!folder.path().join("-").exists(), "{line} made a file or folder named -");
+    let folder = Folder::new();
+    let ended = folder.ran(line);
+    assert!(!folder.at("-").exists(), "{line} made a file or folder named -");
     ended
 }
 
@@ -59,7 +58,7 @@ fn f10_phases_that_are_no_angles_are_refused() {
             refused(&line, "lies outside -1e15 <= phase <= 1e15");
         }
     }
-    let start = json(&format!("simulate {S} --phase 1e15 --impacts 1"))["start"]["phase"].as_f64().unwrap();
+    let start = number(&json(&format!("simulate {S} --phase 1e15 --impacts 1"))["start"]["phase"]);
     assert!((start - 2.109_698_117_070_112_6).abs() < 1e-15);
 }
 
@@ -79,17 +78,14 @@ fn f10b_a_dash_is_stdout() {
 /// All missing tiles are counted: a store of 2000 tiles of which a part has filled 10.
 #[test]
 fn f10c_missing_tiles_are_counted() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let plan = "version = 1\ntile = 1\nsystem = { inverse_beta = 1.3, gap = 0.75, restitution = 0.5 }\n\
                 [task.attractors]\nstarts = 2000\nseed = 1\n";
-    fs::write(folder.path().join("p.toml"), plan).unwrap();
-    let run = |line: &str| vibro(line).current_dir(&folder).output().unwrap();
-    assert!(run("run p.toml --store s.zarr --tiles 1/200 --quiet").status.success());
-    let told: serde_json::Value = serde_json::from_slice(&run("status s.zarr --json").stdout).unwrap();
-    let named = told["missing"].as_array().unwrap().len() as u64;
-    assert_eq!((named, told["missing_left_out"].as_u64()), (1000, Some(990)), "{told}");
-    let text = String::from_utf8(run("status s.zarr").stdout).unwrap();
-    assert!(text.contains("missing tiles: 1 to 199, 201 to 399,") && text.contains(" more\n"), "{text}");
+    folder.write("p.toml", plan);
+    folder.printed("run p.toml --store s.zarr --tiles 1/200 --quiet");
+    let told = folder.json("status s.zarr");
+    assert_eq!((list(&told["missing"]).len(), &told["missing_left_out"]), (1000, &990.into()), "{told}");
+    has(&folder.printed("status s.zarr"), &["missing tiles: 1 to 199, 201 to 399,", " more\n"]);
 }
 
 #[test]
@@ -107,8 +103,7 @@ fn f11_places_that_take_no_files() {
 
 #[test]
 fn f11b_whole_numbers_with_an_exponent() {
-    let told = json(&format!("attractors {S} --starts 1e2"));
-    assert_eq!(told["starts"], 100);
+    assert_eq!(json(&format!("attractors {S} --starts 1e2"))["starts"], 100);
     refused(&format!("attractors {S} --starts 1e-2"), "is not a whole number, such as 1000 or 1e3");
     refused(&format!("attractors {S} --starts 2e9"), "starts = 2000000000 lies outside");
     refused(&format!("branch {S} --label 2/1 --vary gap --to 1 --follow 1e3"), "follow = 1000 lies outside");
@@ -116,41 +111,35 @@ fn f11b_whole_numbers_with_an_exponent() {
 
 #[test]
 fn f11c_all_that_is_missing_is_named() {
+    let all = "the frequency ratio, the gap and the restitution are not given";
+    let hint = "hint: --beta B or --inverse-beta X, --gap D, --restitution E";
     for (line, sentence) in [
-        (
-            "settle",
-            "the frequency ratio, the gap and the restitution are not given\nhint: --beta B or --inverse-beta X, --gap D, --restitution E",
-        ),
+        ("settle", &*format!("{all}\n{hint}")),
         ("settle --beta 1", "the gap and the restitution are not given"),
         ("settle --gap 1 --restitution 0.5", "the frequency is given nowhere"),
         ("settle --mass-kg 1", "missing: --stiffness-n-per-m, --force-n, --frequency-hz, --gap-m, --restitution"),
         ("diagram --vary gap --over 0:1:3", "the frequency ratio and the restitution are not given"),
-        ("map --starts 3", "the frequency ratio, the gap and the restitution are not given"),
+        ("map --starts 3", all),
         ("map --starts 3 --beta 1 --gap 0:5 --restitution 0.5", "0:5:41 is 41 values from 0 to 5"),
     ] {
         refused(line, sentence);
     }
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("p.toml"), "version = 1\n[task.attractors]\nstarts = 5\nseed = 1\n").unwrap();
-    let complaint = refused_in(&folder, "run p.toml");
-    assert!(complaint.contains("beta or inverse_beta, gap, restitution"), "{complaint}");
+    Folder::with("p.toml", "version = 1\n[task.attractors]\nstarts = 5\nseed = 1\n")
+        .refuse([("run p.toml", "beta or inverse_beta, gap, restitution")]);
 }
 
 #[test]
 fn f11d_one_of_a_kind_is_no_plural() {
-    let folder = tempfile::tempdir().unwrap();
-    let run = |line: &str| vibro(line).current_dir(&folder).output().unwrap();
-    let filled = run(&format!("basin {S} --x -1:0.5:4 --v 0:1:4 --store s.zarr"));
-    assert!(String::from_utf8_lossy(&filled.stderr).contains("1 of 1 tile computed"));
+    let folder = Folder::new();
+    let (_, _, filled) = folder.ran(&format!("basin {S} --x -1:0.5:4 --v 0:1:4 --store s.zarr"));
+    has(&filled, &["1 of 1 tile computed"]);
     // damage one chunk
-    let chunk = folder.path().join("s.zarr/label/c/0/0");
-    assert!(chunk.exists());
-    fs::write(&chunk, b"damaged").unwrap();
-    let verified = run("verify s.zarr");
-    assert_eq!(verified.status.code(), Some(1));
-    let complaint = String::from_utf8_lossy(&verified.stderr).into_owned();
-    assert!(complaint.contains("error: 1 fault in s.zarr"), "{complaint}");
-    assert!(String::from_utf8_lossy(&run("status s.zarr").stdout).contains("1 of 1 tile, 16 of 16 points"));
+    assert!(folder.at("s.zarr/label/c/0/0").exists());
+    folder.write("s.zarr/label/c/0/0", b"damaged");
+    let (code, _, complaint) = folder.ran("verify s.zarr");
+    assert_eq!(code, Some(1));
+    has(&complaint, &["error: 1 fault in s.zarr"]);
+    has(&folder.printed("status s.zarr"), &["1 of 1 tile, 16 of 16 points"]);
     let (_, one, _) = ran("diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 1:1:1");
     assert!(one.starts_with("1 value of gap"), "{one}");
 }

@@ -1,12 +1,6 @@
 //! Tests of the look of figures: title, size, resolution, limits and greys, the same for every command.
 
-use crate::{S, printed_in, ran, refused_in};
-use std::path::Path;
-
-fn draw(folder: &Path, line: &str, file: &str) -> Vec<u8> {
-    printed_in(folder, &format!("{line} --force --plot {file}"));
-    std::fs::read(folder.join(file)).expect("the figure")
-}
+use crate::{Folder, S, has};
 
 /// Width, height, and pixels in a metre, from the header of a PNG file.
 fn sizes(png: &[u8]) -> (u32, u32, u32) {
@@ -17,8 +11,7 @@ fn sizes(png: &[u8]) -> (u32, u32, u32) {
 
 #[test]
 fn every_command_with_a_figure_has_the_options() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let folder = folder.path();
+    let folder = Folder::new();
     let machine = "--restitution 0.5 --inverse-beta 1.3";
     for line in [
         format!("simulate {S} --periods 4"),
@@ -32,10 +25,8 @@ fn every_command_with_a_figure_has_the_options() {
         format!("map {machine} --gap 0.5:1:4 --starts 2"),
         format!("diagram {machine} --vary gap --over 0:1:5 --keep 8 --transient 50"),
     ] {
-        let svg = draw(folder, &format!("{line} --size 90x80mm --greyscale --title named"), "title.svg");
-        let svg = String::from_utf8(svg).expect("text");
-        assert!(svg.contains("width=\"90mm\" height=\"80mm\" viewBox=\"0 0 720 640\""), "{line}: {svg:.300}");
-        assert!(svg.contains("<title>named</title>"), "{line}");
+        let svg = folder.drawn(&format!("{line} --size 90x80mm --greyscale --title named"), "a.svg");
+        has(&svg, &["width=\"90mm\" height=\"80mm\" viewBox=\"0 0 720 640\"", "<title>named</title>"]);
         let colours = svg.split("=\"#").skip(1).filter_map(|part| part.get(..6));
         let colours = colours.filter(|text| text.chars().all(|c| c.is_ascii_hexdigit()));
         for colour in colours {
@@ -46,14 +37,12 @@ fn every_command_with_a_figure_has_the_options() {
 
 #[test]
 fn titles_and_limits() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     let line = format!("simulate {S} --periods 4");
-    let of =
-        |options: &str| String::from_utf8(draw(folder.path(), &format!("{line} {options}"), "a.svg")).expect("text");
+    let of = |options: &str| folder.drawn(&format!("{line} {options}"), "a.svg");
     let usual = of("");
-    assert!(usual.contains("<title>1/β = 1.3"), "{usual:.300}");
-    let titled = of("--title 5*3_a<b");
-    assert!(titled.contains("<title>5*3_a&lt;b</title>"), "{titled:.300}");
+    has(&usual, &["<title>1/β = 1.3"]);
+    has(&of("--title 5*3_a<b"), &["<title>5*3_a&lt;b</title>"]);
     let numbers = |svg: &str, value: &str| svg.contains(&format!(">{value}</text>"));
     let limited = of("--x-limits 100:200 --y-limits -7:7");
     assert!(numbers(&limited, "150") && numbers(&limited, "−5") && !numbers(&usual, "150"), "{limited}");
@@ -63,9 +52,12 @@ fn titles_and_limits() {
 
 #[test]
 fn a_picture_has_the_size_and_the_resolution_that_are_asked_for() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     let line = format!("settle {S}");
-    let of = |options: &str| sizes(&draw(folder.path(), &format!("{line} {options}"), "a.png"));
+    let of = |options: &str| {
+        folder.printed(&format!("{line} {options} --force --plot a.png"));
+        sizes(&folder.bytes("a.png"))
+    };
     assert_eq!(of("--size 84x60mm --dpi 200"), (661, 472, 7874));
     assert_eq!(of("--size 3x2in"), (900, 600, 11_811));
     let (width, _, per_metre) = of("--dpi 600");
@@ -75,7 +67,7 @@ fn a_picture_has_the_size_and_the_resolution_that_are_asked_for() {
 
 #[test]
 fn looks_that_are_refused() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     for (options, sentence) in [
         ("--plot a.svg --size 84x60", "`84x60` is no size WxH with a unit"),
         ("--plot a.svg --size 84x10mm", "has no room for its axes and its legend"),
@@ -86,12 +78,11 @@ fn looks_that_are_refused() {
         ("--plot a.svg --x-limits 3", "`3` is not A:B with finite numbers"),
         ("--title words", "say how the figure looks\nhint: --plot FILE"),
     ] {
-        let (code, _, said) = ran(&folder, &format!("settle {S} {options}"));
+        let (code, _, said) = folder.ran(&format!("settle {S} {options}"));
         assert!(code.is_some_and(|code| code > 0), "{options}: {said}");
-        assert!(said.contains(sentence), "{options}: {said}");
+        has(&said, &[sentence]);
     }
     let log = "map --beta 0.5:2:3:log --gap 1 --restitution 0.5 --starts 1 --plot a.svg --x-limits 0:2";
-    let said = refused_in(&folder, log);
-    assert!(said.contains("--x-limits: 0 lies on no logarithmic axis"), "{said}");
-    assert_eq!(folder.path().read_dir().expect("a folder").count(), 0, "nothing is left behind");
+    folder.refuse([(log, "--x-limits: 0 lies on no logarithmic axis")]);
+    assert_eq!(folder.count(), 0, "nothing is left behind");
 }

@@ -1,7 +1,6 @@
 //! Help: its examples run as they are written, and topics have what commands share.
 
-use crate::{printed, printed_in, refused};
-use std::fs;
+use crate::{Folder, has, printed, refuse};
 
 /// The examples of a command, each as one line.
 fn examples(command: &str) -> Vec<String> {
@@ -34,30 +33,15 @@ fn with_few_points(line: &str) -> String {
 /// Those of questions, in the order of the list of commands, pasted one after another in a folder that is empty at first.
 #[test]
 fn examples_run_in_an_empty_folder() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let mut ran = 0;
-    for command in [
-        "simulate",
-        "settle",
-        "settle-many",
-        "attractors",
-        "orbit",
-        "branch",
-        "curve",
-        "region",
-        "response",
-        "margins",
-        "basin",
-        "map",
-        "diagram",
-        "lyapunov",
-        "edge",
-        "contact",
-    ] {
+    let commands = "simulate settle settle-many attractors orbit branch curve region response margins basin map diagram lyapunov \
+                    edge contact";
+    for command in commands.split_whitespace() {
         // the table of the user
-        fs::write(folder.path().join("systems.csv"), "inverse_beta,gap\n1.3,0.75\n1.8,0.25\n").unwrap();
+        folder.write("systems.csv", "inverse_beta,gap\n1.3,0.75\n1.8,0.25\n");
         for line in examples(command) {
-            printed_in(&folder, &with_few_points(&line));
+            folder.printed(&with_few_points(&line));
             ran += 1;
         }
     }
@@ -68,10 +52,17 @@ fn examples_run_in_an_empty_folder() {
 fn topics_and_commands_are_explained() {
     let help = |of: &str| printed(&format!("help {of}"));
     assert_eq!(help("settle"), printed("settle --help"));
-    assert!(help("machine show").contains("--toml") && help("").contains("vibro help units"));
-    assert!(help("system").contains("--stiffness-n-per-m <K>") && help("system").contains("--machine <NAME|FILE>"));
-    assert!(help("figure").contains("--greyscale") && help("figure").contains("--threads <N>"));
-    assert!(help("store").contains("--shard <N>") && help("units").contains("N/mm"));
-    assert!(help("quantities").contains("impact-speed-max") && help("machines").contains("two-mass-hammer"));
-    assert!(refused("help mass").contains("no command and no topic `mass`\nhint: `vibro help`"));
+    for (topic, words) in [
+        ("machine show", &["--toml"][..]),
+        ("", &["vibro help units"]),
+        ("system", &["--stiffness-n-per-m <K>", "--machine <NAME|FILE>"]),
+        ("figure", &["--greyscale", "--threads <N>"]),
+        ("store", &["--shard <N>"]),
+        ("units", &["N/mm"]),
+        ("quantities", &["impact-speed-max"]),
+        ("machines", &["two-mass-hammer"]),
+    ] {
+        has(&help(topic), words);
+    }
+    refuse([("help mass", "no command and no topic `mass`\nhint: `vibro help`")]);
 }

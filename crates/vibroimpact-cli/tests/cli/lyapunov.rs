@@ -1,6 +1,6 @@
 //! Tests of `vibro lyapunov`: exponents with errors or the reason for their absence, and the points of both sections.
 
-use crate::{S, json, printed, printed_in, refused};
+use crate::{Folder, S, has, json, list, number, printed, refuse, rows};
 use serde_json::Value;
 
 /// U of the 1971 paper, where the motion is chaotic.
@@ -8,7 +8,7 @@ const U: &str = "--inverse-beta 1.11 --gap 3 --restitution 0.5";
 
 /// Value and error.
 fn measured(object: &Value) -> (f64, f64) {
-    (object["value"].as_f64().expect("a value"), object["error"].as_f64().expect("an error"))
+    (number(&object["value"]), number(&object["error"]))
 }
 
 #[test]
@@ -51,10 +51,7 @@ fn where_there_is_nothing_to_measure() {
     assert_eq!(measured(&plastic["dimension"]["section"]), (0.0, 0.0));
 
     let free = json("lyapunov --inverse-beta 0.7 --gap 4 --restitution 0.5 --damping 0.2");
-    assert_eq!(
-        (&free["grounds"]["kind"], &free["grounds"]["horizon"]["kind"]),
-        (&"no_impact".into(), &"forever".into())
-    );
+    assert!(free["grounds"]["kind"] == "no_impact" && free["grounds"]["horizon"]["kind"] == "forever", "{free}");
     assert_eq!([0, 1].map(|k| measured(&free["exponents"][k])), [(-0.2, 0.0); 2]);
 
     let touches = json("lyapunov --inverse-beta 0.7 --gap 2.5 --restitution 0.5 --x 0.25 --v 0.8");
@@ -76,7 +73,7 @@ fn a_machine_in_physical_units() {
 #[test]
 fn both_sections_as_a_table() {
     let table = printed(&format!("lyapunov {S} --impacts 1000 --section - --points 4"));
-    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    let rows = rows(&table);
     assert_eq!(rows[0], ["section", "stop", "phase", "speed", "x", "v"]);
     assert_eq!(rows.len(), 9, "{table}");
     let cycle = json(&format!("settle {S}"));
@@ -87,7 +84,7 @@ fn both_sections_as_a_table() {
                 |cell: &str, key: &str| (cell.parse::<f64>().unwrap() - point[key].as_f64().unwrap()).abs() < 1e-9;
             near(row[2], "phase") && near(row[3], "speed")
         };
-        assert!(cycle["motion"]["cycle"].as_array().unwrap().iter().any(at), "{row:?}");
+        assert!(list(&cycle["motion"]["cycle"]).iter().any(at), "{row:?}");
     }
     // one state in each period, equal to rounding
     let state = |row: &[&str]| [4, 5].map(|k| row[k].parse::<f64>().unwrap());
@@ -106,69 +103,47 @@ fn both_sections_as_a_table() {
 #[test]
 fn text_for_people() {
     let chaos = printed(&format!("lyapunov {U} --impacts 5000"));
-    for sentence in [
-        "chaotic: no repetition in 6000 impacts",
-        "larger exponent   0.01",
-        "Kaplan-Yorke dimension 1.1",
-        "5000 impacts",
-    ] {
-        assert!(chaos.contains(sentence), "{sentence}: {chaos}");
-    }
+    let label = "chaotic: no repetition in 6000 impacts";
+    has(&chaos, &[label, "larger exponent   0.01", "Kaplan-Yorke dimension 1.1", "5000 impacts"]);
     let sticks = printed("lyapunov --beta 0.9 --gap -0.5 --restitution 0.5");
-    assert!(
-        sticks.contains("larger exponent   minus infinity") && sticks.contains("forgets all before it"),
-        "{sticks}"
-    );
+    has(&sticks, &["larger exponent   minus infinity", "forgets all before it"]);
 }
 
 /// Over axes, each row has the exponents of its point alone; of a machine likewise.
 #[test]
 fn exponents_over_axes_are_those_of_each_point() {
-    let rows = |line: &str| -> Vec<Vec<String>> {
-        let text = printed(line);
-        text.lines().map(|row| row.split(',').map(str::to_owned).collect()).collect()
-    };
-    let length = "--impacts 1000 --transient 100";
+    let (length, pair) = ("--impacts 1000 --transient 100", "--machine impact-pair");
     for (study, alone, axis, last) in [
-        (format!("lyapunov {U} --axis gap=2.9,3 {length} --csv -"), format!("lyapunov {U} {length}"), "gap", "3"),
-        (
-            format!("lyapunov --machine impact-pair --axis stop.right.gap=0.45,0.5 {length} --csv -"),
-            format!("lyapunov --machine impact-pair {length}"),
-            "stop.right.gap",
-            "0.5",
-        ),
+        (format!("{U} --axis gap=2.9,3"), U, "gap", "3"),
+        (format!("{pair} --axis stop.right.gap=0.45,0.5"), pair, "stop.right.gap", "0.5"),
     ] {
+        let study = printed(&format!("lyapunov {study} {length} --csv -"));
         let table = rows(&study);
         // a row for each exponent of a point, the second point last
-        let exponents = json(&alone)["exponents"].as_array().unwrap().clone();
-        let names = [axis, "direction", "exponent", "exponent_error"];
-        assert_eq!((table.len(), &table[0][..4]), (1 + 2 * exponents.len(), &names.map(str::to_owned)[..]));
-        for (row, of) in table[1 + exponents.len()..].iter().zip(&exponents) {
+        let alone = json(&format!("lyapunov {alone} {length}"));
+        let exponents = list(&alone["exponents"]);
+        assert_eq!(table.len(), 1 + 2 * exponents.len());
+        assert_eq!(table[0][..4], [axis, "direction", "exponent", "exponent_error"]);
+        for (row, of) in table[1 + exponents.len()..].iter().zip(exponents) {
             let (value, error) = measured(of);
-            assert_eq!((row[0].as_str(), row[2].parse(), row[3].parse()), (last, Ok(value), Ok(error)), "{row:?}");
+            assert_eq!((row[0], row[2].parse(), row[3].parse()), (last, Ok(value), Ok(error)), "{row:?}");
         }
     }
     // in SI units per second, as of one motion
     let si = "lyapunov --mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --frequency-hz 4 --gap-m 0.01 --restitution 0.5 --damping-ns-per-m 1 \
               --units si --impacts 1000";
-    let (table, alone) = (rows(&format!("{si} --axis gap-m=0.01,0.011 --csv -")), json(si));
-    assert_eq!((table[0][0].as_str(), table[0][2].as_str()), ("gap_m", "exponent_per_s"));
+    let (study, alone) = (printed(&format!("{si} --axis gap-m=0.01,0.011 --csv -")), json(si));
+    let table = rows(&study);
+    assert_eq!((table[0][0], table[0][2]), ("gap_m", "exponent_per_s"));
     assert_eq!(table[1][2].parse::<f64>().unwrap(), measured(&alone["exponents"][0]).0);
     // and the figure: the smaller exponent at gap 0 is -5.03 per second, -0.25 per unit of nondimensional time
-    let folder = tempfile::tempdir().expect("a folder");
-    printed_in(&folder, &format!("{si} --axis gap-m=0:0.02:3 --plot a.svg"));
-    let svg = std::fs::read_to_string(folder.path().join("a.svg")).unwrap_or_default();
-    for text in ["gap (m)<", "Lyapunov exponents (1/s)<", ">\u{2212}5<"] {
-        assert!(svg.contains(text), "{text}");
-    }
-    for (line, said) in [
+    let svg = Folder::new().drawn(&format!("{si} --axis gap-m=0:0.02:3"), "a.svg");
+    has(&svg, &["gap (m)<", "Lyapunov exponents (1/s)<", ">\u{2212}5<"]);
+    refuse([
         (format!("lyapunov {U} --axis gap=1:2:3 --axis x=0,0.5 --plot a.png"), "drawn over one axis"),
         (format!("lyapunov {U} --axis size=0:1:3 --csv -"), "`size` cannot vary"),
         (format!("lyapunov {U} --axis gap=0:1:3"), "would be lost"),
         (format!("lyapunov {U} --store s.zarr"), "one motion needs no store"),
         (format!("lyapunov {U} --axis gap=1:2:3 --points 5 --plot a.png"), "without --axis"),
-    ] {
-        let text = refused(&line);
-        assert!(text.contains(said), "{line}: {text}");
-    }
+    ]);
 }

@@ -31,7 +31,7 @@ mod vocabulary;
 use assert_cmd::Command;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A run of `vibro` with a time limit.
 fn vibro(line: &str) -> Command {
@@ -40,42 +40,49 @@ fn vibro(line: &str) -> Command {
     command
 }
 
-/// The exit code of `vibro` in a folder, what it prints, and what it complains of.
-fn ran(folder: impl AsRef<Path>, line: &str) -> (Option<i32>, String, String) {
-    let output = vibro(line).current_dir(folder).output().expect("vibro runs");
-    let text = |bytes| String::from_utf8(bytes).expect("text");
-    (output.status.code(), text(output.stdout), text(output.stderr))
-}
-
-/// What a command that succeeds prints in a folder.
-fn printed_in(folder: impl AsRef<Path>, line: &str) -> String {
-    let (code, printed, complaint) = ran(folder, line);
-    assert_eq!(code, Some(0), "{line}: {complaint}");
-    printed
-}
-
+/// What a command that succeeds prints.
 fn printed(line: &str) -> String {
-    printed_in(".", line)
+    Folder::new().printed(line)
 }
 
-/// The complaint of a command that refuses in a folder.
-fn refused_in(folder: impl AsRef<Path>, line: &str) -> String {
-    let (code, printed, complaint) = ran(folder, line);
-    assert_eq!((code, printed.as_str()), (Some(2), ""), "{line}: {complaint}");
-    complaint
-}
-
+/// The complaint of a command that refuses.
 fn refused(line: &str) -> String {
-    refused_in(".", line)
+    Folder::new().refused(line)
 }
 
-/// The JSON object a command prints.
+/// Checks that commands refuse with these words.
+fn refuse<L: AsRef<str>, W: AsRef<str>>(lines: impl IntoIterator<Item = (L, W)>) {
+    Folder::new().refuse(lines);
+}
+
+/// The JSON object that a command prints.
 fn json(line: &str) -> Value {
-    serde_json::from_str(&printed(&format!("{line} --json"))).expect("stdout is one JSON object")
+    Folder::new().json(line)
 }
 
 fn number(value: &Value) -> f64 {
     value.as_f64().expect("a number")
+}
+
+fn list(value: &Value) -> &[Value] {
+    value.as_array().expect("a list")
+}
+
+/// The text of this name in each object of a list.
+fn texts<'a>(list: &'a Value, name: &str) -> Vec<&'a str> {
+    crate::list(list).iter().map(|of| of[name].as_str().expect("a text")).collect()
+}
+
+/// The rows of a table, its head too.
+fn rows(table: &str) -> Vec<Vec<&str>> {
+    table.lines().map(|row| row.split(',').collect()).collect()
+}
+
+/// Checks that a text has all these parts.
+fn has(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "{part}: {text}");
+    }
 }
 
 /// All files in a folder and below, by their names from there.
@@ -93,12 +100,90 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-/// A machine file in a folder of its own.
-fn machine_file(machine: &str) -> (tempfile::TempDir, std::path::PathBuf) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("machine.toml");
-    std::fs::write(&path, machine).expect("it can be written");
-    (folder, path)
+/// A folder of its own, in which commands run. It is removed at the end of the test.
+struct Folder(tempfile::TempDir);
+
+impl AsRef<Path> for Folder {
+    fn as_ref(&self) -> &Path {
+        self.0.path()
+    }
+}
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().expect("a folder"))
+    }
+
+    /// A folder with one file.
+    fn with(name: &str, text: &str) -> Self {
+        let folder = Self::new();
+        folder.write(name, text);
+        folder
+    }
+
+    fn at(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn write(&self, name: &str, text: impl AsRef<[u8]>) {
+        std::fs::write(self.at(name), text).expect("it can be written");
+    }
+
+    fn bytes(&self, name: &str) -> Vec<u8> {
+        std::fs::read(self.at(name)).expect("a file")
+    }
+
+    fn read(&self, name: &str) -> String {
+        String::from_utf8(self.bytes(name)).expect("text")
+    }
+
+    /// All files of a folder in it, by their names from there.
+    fn files(&self, name: &str) -> BTreeMap<String, Vec<u8>> {
+        files(&self.at(name))
+    }
+
+    /// The number of files and folders in it.
+    fn count(&self) -> usize {
+        std::fs::read_dir(self).expect("a folder").count()
+    }
+
+    /// The exit code of `vibro` in it, what it prints, and what it complains of.
+    fn ran(&self, line: &str) -> (Option<i32>, String, String) {
+        let output = vibro(line).current_dir(self).output().expect("vibro runs");
+        let text = |bytes| String::from_utf8(bytes).expect("text");
+        (output.status.code(), text(output.stdout), text(output.stderr))
+    }
+
+    fn printed(&self, line: &str) -> String {
+        let (code, printed, complaint) = self.ran(line);
+        assert_eq!(code, Some(0), "{line}: {complaint}");
+        printed
+    }
+
+    fn json(&self, line: &str) -> Value {
+        serde_json::from_str(&self.printed(&format!("{line} --json"))).expect("stdout is one JSON object")
+    }
+
+    fn refused(&self, line: &str) -> String {
+        let (code, printed, complaint) = self.ran(line);
+        assert_eq!((code, printed.as_str()), (Some(2), ""), "{line}: {complaint}");
+        complaint
+    }
+
+    /// Checks that commands refuse with these words.
+    fn refuse<L: AsRef<str>, W: AsRef<str>>(&self, lines: impl IntoIterator<Item = (L, W)>) {
+        for (line, words) in lines {
+            let (line, words) = (line.as_ref(), words.as_ref());
+            let complaint = self.refused(line);
+            assert!(complaint.contains(words), "{line}: {complaint}\nwanted: {words}");
+        }
+    }
+
+    /// The figure that a command writes into this file.
+    fn drawn(&self, line: &str, file: &str) -> String {
+        self.printed(&format!("{line} --force --plot {file}"));
+        self.read(file)
+    }
 }
 
 /// S of the 1971 paper, where two motions coexist.

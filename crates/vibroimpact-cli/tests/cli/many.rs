@@ -1,9 +1,8 @@
 //! `vibro settle-many`: points that are listed in a table or drawn from ranges, with and without a store.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use crate::{printed, printed_in, ran, refused, vibro};
+use crate::{Folder, has, list, vibro};
 use serde_json::{Value, json};
-use std::fs;
 
 const HYPERCUBE: &str =
     "settle-many --sample lhs:120 --seed 3 --inverse-beta 0.6:2 --gap 0:2 --restitution 0.3:0.8 --v 0.5";
@@ -15,11 +14,10 @@ fn rows(text: &str) -> Vec<Vec<String>> {
 
 #[test]
 fn a_sample_is_that_of_its_plan_in_memory_in_a_store_and_as_a_table() {
-    let (folder, task) = (tempfile::tempdir().unwrap(), "--fields impact-speed-max --transient");
-    let here = folder.path();
-    let memory = printed_in(here, &format!("{HYPERCUBE} {task} --csv -"));
+    let (folder, task) = (Folder::new(), "--fields impact-speed-max --transient");
+    let memory = folder.printed(&format!("{HYPERCUBE} {task} --csv -"));
     assert_eq!(memory.lines().count(), 121);
-    let store = printed_in(here, &format!("{HYPERCUBE} {task} --store cube.zarr --tile 25 --csv -"));
+    let store = folder.printed(&format!("{HYPERCUBE} {task} --store cube.zarr --tile 25 --csv -"));
     assert_eq!(memory, store);
     // the same plan as a file
     let of = |vary: &str, from: f64, to: f64| json!({ "vary": vary, "from": from, "to": to });
@@ -27,13 +25,13 @@ fn a_sample_is_that_of_its_plan_in_memory_in_a_store_and_as_a_table() {
     let drawn = json!({ "rule": "lhs", "count": 120, "seed": 3, "over": over });
     let basin = json!({ "points": { "drawn": drawn }, "start": { "v": 0.5 }, "fields": ["impact_speed_max"], "transient": true });
     let plan = json!({ "version": 1, "tile": 25, "system": { "restitution": 0.3 }, "task": { "basin": basin } });
-    fs::write(here.join("plan.json"), plan.to_string()).unwrap();
-    let ran: Value = serde_json::from_str(&printed_in(here, "run plan.json --store cube.zarr --json")).unwrap();
+    folder.write("plan.json", plan.to_string());
+    let ran = folder.json("run plan.json --store cube.zarr");
     assert_eq!((&ran["computed"], &ran["found"]), (&json!(0), &json!(5)));
     // the values of the sample as a table
     let columns: Vec<String> = rows(&memory).iter().map(|row| row[..3].join(",")).collect();
-    fs::write(here.join("points.csv"), columns.join("\n")).unwrap();
-    let listed = printed_in(here, &format!("settle-many --points points.csv --v 0.5 {task} --csv -"));
+    folder.write("points.csv", columns.join("\n"));
+    let listed = folder.printed(&format!("settle-many --points points.csv --v 0.5 {task} --csv -"));
     assert_eq!(listed, memory);
     // and from stdin, with the names of flags
     let table = columns.join("\n").replace("inverse_beta", "inverse-beta");
@@ -44,12 +42,11 @@ fn a_sample_is_that_of_its_plan_in_memory_in_a_store_and_as_a_table() {
 
 #[test]
 fn a_sample_is_resumed_and_divided() {
-    let folder = tempfile::tempdir().unwrap();
-    let here = folder.path();
+    let folder = Folder::new();
     let line = format!("{HYPERCUBE} --tile 10 --store cube.zarr");
     let mut runs = 0;
     loop {
-        let (code, _, complaint) = ran(here, &format!("--threads 1 {line} --budget 0.001s"));
+        let (code, _, complaint) = folder.ran(&format!("--threads 1 {line} --budget 0.001s"));
         runs += 1;
         match code {
             Some(0) => break,
@@ -58,132 +55,102 @@ fn a_sample_is_resumed_and_divided() {
         }
     }
     assert_eq!(runs, 12);
-    assert!(printed_in(here, &format!("{HYPERCUBE} --csv -")) == printed_in(here, &format!("{line} --csv -")));
+    assert!(folder.printed(&format!("{HYPERCUBE} --csv -")) == folder.printed(&format!("{line} --csv -")));
     // an export has all fields
-    assert!(
-        printed_in(here, "export cube.zarr --csv -")
-            .lines()
-            .next()
-            .is_some_and(|head| head.contains("multiplier_1_re"))
-    );
-    assert!(printed_in(here, "verify cube.zarr --sample 3").contains("12"));
+    has(folder.printed("export cube.zarr --csv -").lines().next().unwrap(), &["multiplier_1_re"]);
+    has(&folder.printed("verify cube.zarr --sample 3"), &["12"]);
 }
 
 /// One start is that of `settle`, and a body in SI units has the same motions as its oscillator.
 #[test]
 fn the_same_motions_as_settle_and_in_other_units() {
-    let folder = tempfile::tempdir().unwrap();
-    let here = folder.path();
-    fs::write(here.join("starts.csv"), "x,v\n-1,0.5\n0.25,-2\n0.75,0\n").unwrap();
+    let folder = Folder::new();
+    folder.write("starts.csv", "x,v\n-1,0.5\n0.25,-2\n0.75,0\n");
     let system = "--inverse-beta 1.3 --gap 0.75 --restitution 0.5";
-    let table = printed_in(here, &format!("settle-many --points starts.csv {system} --phase 1 --csv -"));
+    let table = folder.printed(&format!("settle-many --points starts.csv {system} --phase 1 --csv -"));
     for row in rows(&table).iter().skip(1) {
-        let settled = format!("settle {system} --x={} --v={} --phase 1 --json", row[0], row[1]);
-        let settled: Value = serde_json::from_str(&printed_in(here, &settled)).unwrap();
+        let settled = folder.json(&format!("settle {system} --x={} --v={} --phase 1", row[0], row[1]));
         assert_eq!(settled["motion"]["label"], row[2], "{row:?}");
     }
     // F/k = 5 mm, omega_n = 20 /s
     let machine = "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --frequency-hz 2.5 --restitution 0.6";
     let beta = 2.5 * std::f64::consts::TAU / 20.0;
-    let metres =
-        printed_in(here, &format!("settle-many --sample sobol:32 {machine} --gap-m 0.001:0.006 --v 0.02 --csv -"));
-    let plain = printed_in(
-        here,
-        &format!("settle-many --sample sobol:32 --beta {beta} --gap 0.2:1.2 --restitution 0.6 --v 0.2 --csv -"),
-    );
+    let sobol = |rest: &str| folder.printed(&format!("settle-many --sample sobol:32 {rest} --csv -"));
+    let metres = sobol(&format!("{machine} --gap-m 0.001:0.006 --v 0.02"));
+    let plain = sobol(&format!("--beta {beta} --gap 0.2:1.2 --restitution 0.6 --v 0.2"));
     let labels = |text: &str| rows(text).iter().skip(1).map(|row| row[1].clone()).collect::<Vec<_>>();
     assert_eq!(labels(&metres), labels(&plain));
     assert!(metres.starts_with("sample,gap_m,label"), "{metres}");
-    fs::write(here.join("gaps.csv"), "gap_m,v\n0.001,0.02\n0.004,0.02\n").unwrap();
-    let listed = printed_in(here, &format!("settle-many --points gaps.csv {machine} --csv -"));
+    folder.write("gaps.csv", "gap_m,v\n0.001,0.02\n0.004,0.02\n");
+    let listed = folder.printed(&format!("settle-many --points gaps.csv {machine} --csv -"));
     assert!(rows(&listed)[2][..2] == ["0.004", "0.02"], "{listed}");
 }
 
 #[test]
 fn summaries_and_refusals() {
-    let folder = tempfile::tempdir().unwrap();
-    let here = folder.path();
-    let text = printed_in(here, "settle-many --sample sobol:64 --beta 1 --gap 1 --restitution 0.5 --v -2:2");
-    assert!(text.contains("64 points") && text.contains("share of starts"), "{text}");
-    let answer: Value = serde_json::from_str(&printed_in(
-        here,
-        "settle-many --sample sobol:8 --beta 1 --gap 0.5:1 --restitution 0.5 --json",
-    ))
-    .unwrap();
-    let points = answer["points"].as_array().expect("a list");
-    let table = printed_in(here, "settle-many --sample sobol:8 --beta 1 --gap 0.5:1 --restitution 0.5 --csv -");
+    let folder = Folder::new();
+    let text = folder.printed("settle-many --sample sobol:64 --beta 1 --gap 1 --restitution 0.5 --v -2:2");
+    has(&text, &["64 points", "share of starts"]);
+    let line = "settle-many --sample sobol:8 --beta 1 --gap 0.5:1 --restitution 0.5";
+    let answer = folder.json(line);
+    let points = list(&answer["points"]);
+    let table = folder.printed(&format!("{line} --csv -"));
     let row = |point: &Value| format!("{},{}", point["gap"], point["motions"][0]["label"].as_str().unwrap());
     let listed: Vec<String> = rows(&table).iter().skip(1).map(|row| row.join(",")).collect();
     assert!(points.len() == 8 && listed == points.iter().map(row).collect::<Vec<_>>(), "{answer} {table}");
     assert!(answer["system"]["gap"].is_null() && answer["system"]["restitution"] == 0.5, "{answer}");
     assert_eq!(answer["plan"]["task"]["basin"]["points"]["drawn"]["rule"], "sobol");
-    fs::write(here.join("gaps.csv"), "gap\n0.5\n1\n").unwrap();
-    fs::write(here.join("bad.csv"), "gap,mass\n0.5,1\n").unwrap();
-    for (line, sentence) in [
-        ("settle-many --beta 1 --gap 0:1 --restitution 0.5", "the following required arguments were not provided"),
-        ("settle-many --sample lhs:9 --beta 1 --gap 1 --restitution 0.5", "nothing varies"),
-        ("settle-many --sample grid:9 --beta 1 --gap 0:1 --restitution 0.5", "neither sobol nor lhs"),
-        ("settle-many --sample lhs:9 --beta 1 --gap 1:0 --restitution 0.5", "is not A:B with finite A < B"),
-        (
-            "settle-many --points gaps.csv --beta 1 --gap 1 --restitution 0.5",
-            "--gap cannot go together with the column gap",
-        ),
-        (
-            "settle-many --points gaps.csv --beta 1:2 --restitution 0.5",
-            "--beta is a range, and points of a table have one value",
-        ),
-        ("settle-many --points gaps.csv --beta 1 --v -1:1 --restitution 0.5", "--v is a range"),
-        ("settle-many --points bad.csv --beta 1 --restitution 0.5", "`bad.csv`: the column `mass` is no parameter"),
-        ("settle-many --points none.csv --beta 1 --restitution 0.5", "the points `none.csv` cannot be read"),
-        ("settle-many --points gaps.csv --beta 1", "the restitution is not given"),
-        ("settle-many --points gaps.csv --restitution 0.5", "the frequency is given nowhere"),
-        ("settle-many --sample lhs:9 --beta 1 --gap 0:1 --restitution 0.5 --tile 3", "--store"),
-    ] {
-        let (code, _, complaint) = ran(here, line);
-        assert_eq!(code, Some(2), "{line}: {complaint}");
-        assert!(complaint.contains(sentence), "{line}: {complaint}");
-    }
+    folder.write("gaps.csv", "gap\n0.5\n1\n");
+    folder.write("bad.csv", "gap,mass\n0.5,1\n");
+    let many = |rest: &str| format!("settle-many {rest} --restitution 0.5");
+    folder.refuse([
+        (many("--beta 1 --gap 0:1"), "the following required arguments were not provided"),
+        (many("--sample lhs:9 --beta 1 --gap 1"), "nothing varies"),
+        (many("--sample grid:9 --beta 1 --gap 0:1"), "neither sobol nor lhs"),
+        (many("--sample lhs:9 --beta 1 --gap 1:0"), "is not A:B with finite A < B"),
+        (many("--points gaps.csv --beta 1 --gap 1"), "--gap cannot go together with the column gap"),
+        (many("--points gaps.csv --beta 1:2"), "--beta is a range, and points of a table have one value"),
+        (many("--points gaps.csv --beta 1 --v -1:1"), "--v is a range"),
+        (many("--points bad.csv --beta 1"), "`bad.csv`: the column `mass` is no parameter"),
+        (many("--points none.csv --beta 1"), "the points `none.csv` cannot be read"),
+        ("settle-many --points gaps.csv --beta 1".to_owned(), "the restitution is not given"),
+        (many("--points gaps.csv"), "the frequency is given nowhere"),
+        (many("--sample lhs:9 --beta 1 --gap 0:1 --tile 3"), "--store"),
+    ]);
 }
 
 /// Points of a machine: listed and drawn ones are as single questions, and what makes no sense is refused.
 #[test]
 fn points_of_a_machine() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("points.csv");
-    fs::write(&file, "q.head,b\n0,0.4\n0.2,0.6\n7,0.3\n").unwrap();
+    let folder = Folder::with("points.csv", "q.head,b\n0,0.4\n0.2,0.6\n7,0.3\n");
     let machine = "settle-many --machine two-mass-hammer";
-    let table = printed(&format!("{machine} --points {} --csv - --fields power", file.display()));
-    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    let listed = format!("{machine} --points points.csv --csv - --fields power");
+    let table = folder.printed(&listed);
+    let rows = crate::rows(&table);
     assert_eq!(rows[0], ["sample", "q.head", "b", "label", "power"]);
     assert_eq!((rows.len(), rows[3][3], rows[3][4]), (4, "refused", ""));
     for row in &rows[1..3] {
-        let alone = crate::json(&format!("settle --machine two-mass-hammer --set b={} --q 0,{}", row[2], row[1]));
+        let alone = folder.json(&format!("settle --machine two-mass-hammer --set b={} --q 0,{}", row[2], row[1]));
         assert_eq!(alone["motion"]["label"], row[3]);
         assert_eq!(alone["motion"]["quantities"]["power"].as_f64().unwrap(), row[4].parse::<f64>().unwrap());
     }
-    let store = folder.path().join("points.zarr");
-    let stored =
-        printed(&format!("{machine} --points {} --csv - --fields power --store {}", file.display(), store.display()));
+    let stored = folder.printed(&format!("{listed} --store points.zarr"));
     assert_eq!(stored, table, "the table of the store");
-    let drawn = crate::json(&format!("{machine} --sample lhs:6 --seed 2 --over frequency=0.9:1.3"));
-    let points = drawn["points"].as_array().unwrap();
+    let drawn = folder.json(&format!("{machine} --sample lhs:6 --seed 2 --over frequency=0.9:1.3"));
+    let points = list(&drawn["points"]);
     assert!(points.len() == 6 && points.iter().all(|point| point["motions"][0]["label"].is_string()), "{drawn}");
-    for (flags, sentence) in [
-        ("--sample lhs:6", "--over PATH=A:B"),
-        ("--sample lhs:6 --over nix=1:2", "no such number in this machine"),
-        ("--sample lhs:6 --over q.nix=1:2", "q.nix"),
-        ("--sample lhs:6 --over b=1:2 --transient", "for points of oscillators"),
-    ] {
-        let said = refused(&format!("{machine} {flags}"));
-        assert!(said.contains(sentence), "{flags}: {said}");
-    }
+    folder.refuse([
+        (format!("{machine} --sample lhs:6"), "--over PATH=A:B"),
+        (format!("{machine} --sample lhs:6 --over nix=1:2"), "no such number in this machine"),
+        (format!("{machine} --sample lhs:6 --over q.nix=1:2"), "q.nix"),
+        (format!("{machine} --sample lhs:6 --over b=1:2 --transient"), "for points of oscillators"),
+    ]);
 }
 
 /// The figure of labels over the points is the same from memory and from a store.
 #[test]
 fn labels_over_the_points() {
-    let folder = tempfile::tempdir().unwrap();
-    let here = folder.path();
+    let folder = Folder::new();
     for (k, (line, across, label)) in [
         ("--sample sobol:16 --beta 1 --gap 0.5:1 --restitution 0.5 --v -1:1", ">δ<", "1/1"),
         ("--machine two-mass-hammer --sample sobol:4 --over frequency=0.9:1.3 --over q.head=-1:0.4", "frequency", "/1"),
@@ -191,11 +158,10 @@ fn labels_over_the_points() {
     .into_iter()
     .enumerate()
     {
-        printed_in(here, &format!("settle-many {line} --plot {k}.svg"));
-        printed_in(here, &format!("settle-many {line} --store {k}.zarr"));
-        printed_in(here, &format!("plot {k}.zarr stored-{k}.svg"));
-        let drawn = fs::read_to_string(here.join(format!("{k}.svg"))).unwrap();
-        assert!(drawn.contains(across) && drawn.contains(label), "{drawn}");
-        assert_eq!(drawn, fs::read_to_string(here.join(format!("stored-{k}.svg"))).unwrap(), "{line}");
+        let drawn = folder.drawn(&format!("settle-many {line}"), "a.svg");
+        has(&drawn, &[across, label]);
+        folder.printed(&format!("settle-many {line} --store {k}.zarr"));
+        folder.printed(&format!("plot {k}.zarr stored-{k}.svg"));
+        assert_eq!(drawn, folder.read(&format!("stored-{k}.svg")), "{line}");
     }
 }

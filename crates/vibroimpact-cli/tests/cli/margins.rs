@@ -1,6 +1,6 @@
 //! Tests of `vibro margins`: distances, boxes, units and refusals.
 
-use crate::{json, number, printed, refused};
+use crate::{has, json, list, number, printed, refuse, refused, rows, texts};
 use serde_json::Value;
 
 /// Below the flip of 1/1 at the gap 1.829.
@@ -10,8 +10,7 @@ const MACHINE: &str = "--mass-kg 0.8 --stiffness-n-per-m 12000 --force-n 30 --da
 
 /// The object of a parameter.
 fn of<'a>(answer: &'a Value, name: &str) -> &'a Value {
-    let all = answer["parameters"].as_array().expect("a list");
-    all.iter().find(|one| one["parameter"] == name).expect("it varies")
+    list(&answer["parameters"]).iter().find(|one| one["parameter"] == name).expect("it varies")
 }
 
 #[test]
@@ -23,8 +22,7 @@ fn the_distance_is_that_of_the_branch() {
     assert!((number(&up["relative"]) - number(&up["distance"]) / 1.5).abs() < 1e-15);
     let down = &of(&answer, "damping")["down"];
     assert_eq!((&down["event"], &down["limit"], &down["at"]), (&Value::Null, &0.0.into(), &Value::Null));
-    let names: Vec<&Value> = answer["parameters"].as_array().unwrap().iter().map(|one| &one["parameter"]).collect();
-    assert_eq!(names, ["inverse_beta", "gap", "restitution", "damping"]);
+    assert_eq!(texts(&answer["parameters"], "parameter"), ["inverse_beta", "gap", "restitution", "damping"]);
     let found = &answer["box"];
     assert!(number(&found["size"]) > 0.0 && number(&found["size"]) <= number(&found["largest"]), "{found}");
     assert_eq!((&found["proved"], &answer["nearest"]["parameter"]), (&false.into(), &answer["nearest"]["parameter"]));
@@ -35,20 +33,16 @@ fn the_distance_is_that_of_the_branch() {
 
 #[test]
 fn text_and_table() {
-    let text = printed(ONE);
-    for words in ["1/1: one impact every forcing period, stable", "flip", "none up to 0.1", "by trying", "not proved"] {
-        assert!(text.contains(words), "{words}: {text}");
-    }
+    let label = "1/1: one impact every forcing period, stable";
+    has(&printed(ONE), &[label, "flip", "none up to 0.1", "by trying", "not proved"]);
     let table = printed(&format!("{ONE} --csv -"));
-    let rows: Vec<&str> = table.lines().collect();
-    assert_eq!(rows[0], "parameter,value,direction,limit,at,distance,relative,event,before,after");
-    assert_eq!(rows.len(), 9);
-    assert!(rows.iter().all(|row| row.split(',').count() == 10), "{table}");
-    assert!(rows.iter().any(|row| row.starts_with("gap,1.5,up,3,1.829006189683")), "{table}");
-    let chaos = printed("margins --inverse-beta 1.11 --gap 3 --restitution 0.5");
-    assert!(chaos.contains("chaotic") && chaos.contains("no margins"), "{chaos}");
+    let rows = rows(&table);
+    assert_eq!(rows[0].join(","), "parameter,value,direction,limit,at,distance,relative,event,before,after");
+    assert!(rows.len() == 9 && rows.iter().all(|row| row.len() == 10), "{table}");
+    has(&table, &["\ngap,1.5,up,3,1.829006189683"]);
+    has(&printed("margins --inverse-beta 1.11 --gap 3 --restitution 0.5"), &["chaotic", "no margins"]);
     let unstable = printed("margins --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/1");
-    assert!(unstable.contains("no box: the motion is unstable"), "{unstable}");
+    has(&unstable, &["no box: the motion is unstable"]);
 }
 
 /// A machine has its margins in Hz and m; they agree with its branch.
@@ -63,22 +57,13 @@ fn a_machine_in_si_units() {
     // a scale in its units
     let scaled = json(&format!("margins {MACHINE} --vary gap-m,damping-ratio --scale gap-m=0.0003"));
     assert!((number(&of(&scaled, "gap_m")["scale"]) - 0.0003).abs() < 1e-15);
-    assert_eq!(scaled["parameters"].as_array().unwrap().len(), 2);
+    assert_eq!(list(&scaled["parameters"]).len(), 2);
     // each number of the body varies, and its force depends on the motion of the base
     let base = MACHINE.replace("--force-n 30", "--base-acceleration-m-per-s2 30");
     let moved = json(&format!("margins {base} --lines 0"));
-    let names: Vec<&str> =
-        moved["parameters"].as_array().unwrap().iter().map(|one| one["parameter"].as_str().unwrap()).collect();
-    let expected = [
-        "mass_kg",
-        "stiffness_n_per_m",
-        "damping_ratio",
-        "frequency_hz",
-        "gap_m",
-        "base_acceleration_m_per_s2",
-        "restitution",
-    ];
-    assert_eq!(names, expected);
+    let body = ["mass_kg", "stiffness_n_per_m", "damping_ratio", "frequency_hz", "gap_m"];
+    let names = texts(&moved["parameters"], "parameter");
+    assert_eq!((&names[..5], &names[5..]), (&body[..], &["base_acceleration_m_per_s2", "restitution"][..]));
     // twice the acceleration has the motion of half the gap
     let (wider, weaker) = (of(&answer, "gap_m"), of(&answer, "force_n"));
     let events = |of: &Value| [of["down"]["event"]["kind"].clone(), of["up"]["event"]["kind"].clone()];
@@ -88,7 +73,7 @@ fn a_machine_in_si_units() {
 
 #[test]
 fn what_is_refused() {
-    for (more, sentence) in [
+    let cases = [
         ("--label 1/1 --v 1", "--label cannot go together with a start"),
         ("--label 5/7", "no admissible orbit 5/7"),
         ("--within 1", "within = 1 lies outside 1 < within <= 100"),
@@ -97,12 +82,9 @@ fn what_is_refused() {
         ("--vary second-gap", "second_gap is to vary"),
         ("--vary beta,inverse-beta", "beta and inverse_beta are both to vary"),
         ("--lines 100001", "lines = 100001 lies outside"),
-    ] {
-        let complaint = refused(&format!("{ONE} {more}"));
-        assert!(complaint.contains(sentence), "{more}: {complaint}");
-    }
-    let complaint = refused(&format!("margins {MACHINE} --vary gap"));
-    assert!(complaint.contains("gap is nondimensional") && complaint.contains("gap-m"), "{complaint}");
+    ];
+    refuse(cases.map(|(more, sentence)| (format!("{ONE} {more}"), sentence)));
+    has(&refused(&format!("margins {MACHINE} --vary gap")), &["gap is nondimensional", "gap-m"]);
 }
 
 /// With two stops a motion is described by its impacts on each of them.
@@ -111,21 +93,19 @@ fn impacts_on_each_of_two_stops() {
     let both = "--beta 0.8 --gap 0.5 --restitution 0.6 --damping 0.02 --second-gap 1.5";
     let settled = json(&format!("settle {both}"));
     let motion = &settled["motion"];
-    let sides: Vec<&Value> = motion["cycle"].as_array().expect("a list").iter().map(|one| &one["stop"]).collect();
-    let on = |side: &str| sides.iter().filter(|of| ***of == side).count();
+    let sides = texts(&motion["cycle"], "stop");
+    let on = |side: &str| sides.iter().filter(|of| **of == side).count();
     assert!(!sides.is_empty(), "{motion}");
     let counts = (&motion["counts"]["upper"], &motion["counts"]["lower"]);
     assert_eq!(counts, (&on("upper").into(), &on("lower").into()));
-    let told = format!("({} upper, {} lower)", on("upper"), on("lower"));
     let label = motion["label"].as_str().expect("a label");
-    assert!(printed(&format!("settle {both}")).contains(&format!("{label} {told}: ")));
-    assert!(printed(&format!("orbit {both} --label {label}")).contains(&format!("{label} {told}: ")));
+    let told = format!("{label} ({} upper, {} lower): ", on("upper"), on("lower"));
+    has(&printed(&format!("settle {both}")), &[&told]);
+    has(&printed(&format!("orbit {both} --label {label}")), &[&told]);
     for command in ["attractors --starts 20", "basin --x 0:0.4:4 --v 0:1:4"] {
-        let text = printed(&format!("{command} {both}"));
-        assert!(text.contains(" upper, ") && text.contains(" lower)"), "{text}");
+        has(&printed(&format!("{command} {both}")), &[" upper, ", " lower)"]);
     }
-    let map = both.replace("--gap 0.5", "--gap 0.5:0.6:2");
-    assert!(printed(&format!("map {map} --starts 2")).contains(" lower)"));
+    has(&printed(&format!("map {} --starts 2", both.replace("--gap 0.5", "--gap 0.5:0.6:2"))), &[" lower)"]);
     // with one stop nothing is added
     let one = json("settle --beta 0.8 --gap 0.5 --restitution 0.6 --damping 0.02");
     assert_eq!(one["motion"]["counts"].as_object().unwrap().len(), 1);

@@ -1,11 +1,10 @@
 //! Tests of `--layers`, `--mark` and `--line`: the figure that the page of the explorer exports, with what lies over the map,
 //! is that of the command which the page shows.
 
-use crate::{printed, printed_in, refused_in};
+use crate::{Folder, has, printed, refuse};
 use axum::body::{Body, to_bytes};
 use axum::http::{Request, header};
 use serde_json::Value;
-use std::path::Path;
 use tower::ServiceExt;
 use vibroimpact_web::{Explorer, app};
 
@@ -32,16 +31,16 @@ fn ask(path: &str, plan: &str) -> Vec<u8> {
     tokio::runtime::Runtime::new().expect("a runtime").block_on(body)
 }
 
-fn drawn(folder: &Path, line: &str) -> String {
-    printed_in(folder, &format!("{line} --force"));
+fn drawn(folder: &Folder, line: &str) -> String {
+    folder.printed(&format!("{line} --force"));
     let file = line.split_whitespace().find(|word| word.ends_with(".svg")).expect("a figure");
-    std::fs::read_to_string(folder.join(file)).expect("the figure")
+    folder.read(file)
 }
 
 /// Each overlay alone and all together; the flags of the command, and parts of the figure that are there only with them.
 #[test]
 fn the_export_of_the_page_is_the_figure_of_its_command() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     let plain = PLAIN.replace("FIELDS", "");
     let fields = PLAIN.replace("FIELDS", r#","fields":["power"]"#);
     let bare = String::from_utf8(ask("/api/figure", &plain)).expect("a figure");
@@ -81,7 +80,7 @@ fn the_export_of_the_page_is_the_figure_of_its_command() {
         assert!(command.ends_with(end.trim_start()) && command.matches("--").count() < 20, "{command}");
         assert_eq!(command.contains("--layers"), flags.contains("--layers"), "{command}");
         let figure = String::from_utf8(ask(&format!("/api/figure?{query}"), plan)).expect("a figure");
-        assert!(drawn(folder.path(), command) == figure, "{query}");
+        assert!(drawn(&folder, command) == figure, "{query}");
         assert!(parts.iter().all(|part| figure.contains(part) && !bare.contains(part)), "{query}");
         if plan == &plain && !flags.is_empty() && query != "layers=" {
             assert!(figure != bare, "{query}");
@@ -92,54 +91,34 @@ fn the_export_of_the_page_is_the_figure_of_its_command() {
 /// A store has the figure of the result in memory.
 #[test]
 fn a_store_has_the_same_layers() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     let over = "--layers paper,boundaries,amplitude --mark 1.3,1 --line 1.1,1.5:1.1,2.5";
-    let memory = drawn(folder.path(), &format!("{MAP} {over} --plot map.svg"));
-    assert_eq!(drawn(folder.path(), &format!("{MAP} {over} --plot map.svg --store s.zarr")), memory);
-    assert_eq!(drawn(folder.path(), &format!("plot s.zarr again.svg {over}")), memory);
+    let memory = drawn(&folder, &format!("{MAP} {over} --plot map.svg"));
+    assert_eq!(drawn(&folder, &format!("{MAP} {over} --plot map.svg --store s.zarr")), memory);
+    assert_eq!(drawn(&folder, &format!("plot s.zarr again.svg {over}")), memory);
 }
 
 #[test]
 fn what_is_refused() {
-    let folder = tempfile::tempdir().expect("a folder");
-    for (line, sentence) in [
+    let over = |flags: &str| format!("{MAP} --plot a.svg {flags}");
+    let range = "gap = 9 of the mark lies outside 0.25 <= gap <= 2.75, the axis of the figure";
+    let quantity = "the layer boundaries shows motions, and the figure shows a quantity";
+    let without_gap = "map --beta 0.5:2:3 --restitution 0.4:0.6:3 --gap 1 --starts 1 --plot a.svg --layers amplitude";
+    let line = "map --beta 0.5:2:3 --restitution 0.5 --gap 1 --starts 1 --plot a.svg --mark 1,1";
+    let machine = "map --machine two-mass-hammer --axis frequency=0.9:1.3:4 --starts 2 --plot a.svg --mark 1,1";
+    refuse([
         (format!("{MAP} --mark 1.3,1"), "--layers, --mark and --line say what the figure shows\nhint: --plot FILE"),
-        (format!("{MAP} --plot a.svg --mark 1.3"), "`1.3` is not X,Y with finite numbers"),
-        (format!("{MAP} --plot a.svg --line 1,2:1,2"), "its two ends are the same point"),
-        (
-            format!("{MAP} --plot a.svg --mark 1.3,9"),
-            "gap = 9 of the mark lies outside 0.25 <= gap <= 2.75, the axis of the figure",
-        ),
-        (format!("{MAP} --plot a.svg --line 3,1:4,1"), "inverse_beta = 3 of the line lies outside"),
-        (
-            format!("{MAP} --plot a.svg --layers lines"),
-            "possible values: regions, amplitude, paper, stripes, boundaries",
-        ),
-        (format!("{MAP} --plot a.svg --layers none,paper"), "--layers none stands alone"),
-        (
-            format!("{MAP} --plot a.svg --colour power --layers boundaries"),
-            "the layer boundaries shows motions, and the figure shows a quantity",
-        ),
-        (
-            "map --beta 0.5:2:3 --restitution 0.4:0.6:3 --gap 1 --starts 1 --plot a.svg --layers amplitude".to_owned(),
-            "the layer amplitude needs the gap on an axis",
-        ),
-        (
-            "map --beta 0.5:2:3 --restitution 0.5 --gap 1 --starts 1 --plot a.svg --mark 1,1".to_owned(),
-            "drawn over a map of two parameters",
-        ),
-        (
-            "map --machine two-mass-hammer --axis frequency=0.9:1.3:4 --starts 2 --plot a.svg --mark 1,1".to_owned(),
-            "--layers, --mark and --line are for maps without --machine",
-        ),
-    ] {
-        let said = refused_in(folder.path(), &line);
-        assert!(said.contains(sentence), "{line}: {said}");
-    }
-    let help = printed("help figure");
-    for word in
-        ["--layers <LAYER,...>", "--mark <X,Y>", "--line <X0,Y0:X1,Y1>", "The amplitude of the motion without stops"]
-    {
-        assert!(help.contains(word), "{word}: {help}");
-    }
+        (over("--mark 1.3"), "`1.3` is not X,Y with finite numbers"),
+        (over("--line 1,2:1,2"), "its two ends are the same point"),
+        (over("--mark 1.3,9"), range),
+        (over("--line 3,1:4,1"), "inverse_beta = 3 of the line lies outside"),
+        (over("--layers lines"), "possible values: regions, amplitude, paper, stripes, boundaries"),
+        (over("--layers none,paper"), "--layers none stands alone"),
+        (over("--colour power --layers boundaries"), quantity),
+        (without_gap.to_owned(), "the layer amplitude needs the gap on an axis"),
+        (line.to_owned(), "drawn over a map of two parameters"),
+        (machine.to_owned(), "--layers, --mark and --line are for maps without --machine"),
+    ]);
+    let layer = "The amplitude of the motion without stops";
+    has(&printed("help figure"), &["--layers <LAYER,...>", "--mark <X,Y>", "--line <X0,Y0:X1,Y1>", layer]);
 }

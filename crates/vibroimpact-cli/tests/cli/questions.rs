@@ -1,5 +1,6 @@
 //! The command line that the library writes for a plan gives exactly this plan.
 
+use crate::Folder;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use vibroimpact_report::question::{command, shell_line};
@@ -8,7 +9,7 @@ use vibroimpact_study::Plan;
 /// The plan that the command for a plan prints.
 fn asked(plan: &Plan) -> Plan {
     let words = command(plan).expect("a command says it");
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     let mut vibro = assert_cmd::Command::new(env!("CARGO_BIN_EXE_vibro"));
     vibro.args(&words[1..]).arg("--json").current_dir(&folder).timeout(std::time::Duration::from_secs(60));
     let output = vibro.output().expect("vibro runs");
@@ -21,6 +22,13 @@ fn plan(system: &Value, task: &Value) -> Plan {
     let plan: Plan = serde_json::from_value(json!({ "version": 1, "system": system, "task": task })).expect("a plan");
     plan.check().expect("it makes sense");
     plan
+}
+
+/// The command of a plan asks for this plan.
+fn comes_back(system: &Value, task: &Value) {
+    let plan = plan(system, task);
+    let complete = plan.complete().expect("it was checked");
+    assert_eq!(asked(&plan).hash(), complete.hash(), "{:?}", command(&plan));
 }
 
 #[test]
@@ -53,9 +61,7 @@ fn of_every_task() {
         json!({ "margins": { "start": { "v": -1.0 }, "lines": 3 } }),
     ] {
         for system in [&one, &two] {
-            let plan = plan(system, &task);
-            let complete = plan.complete().expect("it was checked");
-            assert_eq!(asked(&plan).hash(), complete.hash(), "{:?}", command(&plan));
+            comes_back(system, &task);
         }
     }
     for (system, task) in [
@@ -99,9 +105,7 @@ fn of_every_task() {
                                    "up": over("second_restitution", 0.3, 0.4), "grid": 2 } }),
         ),
     ] {
-        let plan = plan(system, &task);
-        let complete = plan.complete().expect("it was checked");
-        assert_eq!(asked(&plan).hash(), complete.hash(), "{:?}", command(&plan));
+        comes_back(system, &task);
     }
 }
 
@@ -167,22 +171,18 @@ fn f10_the_command_of_a_view_draws_that_view() {
     let answer = answer(&plan, Units::default(), &Control::default()).expect("an answer");
     for view in View::ALL {
         let line = shell_line_showing(&plan, view).expect("a command says it");
-        let folder = tempfile::tempdir().expect("a folder");
-        crate::vibro(line.strip_prefix("vibro ").expect("it is vibro")).current_dir(&folder).assert().success();
-        let drawn = std::fs::read_to_string(folder.path().join(format!("{}.svg", view.name()))).expect("the picture");
+        let folder = Folder::new();
+        folder.printed(line.strip_prefix("vibro ").expect("it is vibro"));
+        let drawn = folder.read(&format!("{}.svg", view.name()));
         let shown = answer.figure(&Shown { view: Some(view), ..Shown::default() }, &Control::default());
         assert_eq!(drawn, shown.expect("a figure").expect("it has this view").to_svg(), "{line}");
     }
     let chaos = "settle --inverse-beta 1.11 --gap 3 --restitution 0.5 --show multipliers --plot none.svg";
-    let folder = tempfile::tempdir().expect("a folder");
-    let refused = crate::vibro(chaos).current_dir(&folder).output().expect("vibro runs");
-    let complaint = String::from_utf8_lossy(&refused.stderr);
-    assert!(!refused.status.success() && complaint.contains("the motion `chaotic` has no multipliers"), "{complaint}");
-    assert!(!folder.path().join("none.svg").exists());
-    let alone = crate::vibro("settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --show phase")
-        .output()
-        .expect("vibro runs");
-    assert_eq!(alone.status.code(), Some(2));
+    let folder = Folder::new();
+    let (code, _, complaint) = folder.ran(chaos);
+    assert!(code != Some(0) && complaint.contains("the motion `chaotic` has no multipliers"), "{complaint}");
+    assert!(!folder.at("none.svg").exists());
+    folder.refused("settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --show phase");
 }
 
 /// A size of tiles needs a store. A plan that no flags can express has no command; if it is a study, it is run from a
@@ -209,7 +209,7 @@ fn stores_and_plans_in_files() {
         let plan = plan(&one, &task);
         assert_eq!(command(&plan), None, "{task}");
         let line = shell_line(&plan).expect("it is a study");
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = Folder::new();
         let program = std::path::Path::new(env!("CARGO_BIN_EXE_vibro")).parent().expect("a folder");
         let run = std::process::Command::new("sh")
             .args(["-c", &format!("{line} --json")])

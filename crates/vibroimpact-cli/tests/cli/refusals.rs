@@ -1,12 +1,21 @@
 //! Tests of invalid questions: one message, exit code 2, no computation, no file overwritten.
 
-use crate::{S, refused, refused_in, vibro};
+use crate::{Folder, S, refused, vibro};
 
 #[test]
 fn bad_questions_are_named() {
     let rest = "--gap 1 --restitution 0.5";
     let grid = "--x -1:0.5:3 --v -1:1:3";
     let sweep = |rest: &str| format!("diagram --restitution 0.5 {rest}");
+    let branch = |rest: &str| format!("branch {S} --label 2/1 --vary {rest}");
+    let curve = |rest: &str| format!("curve {S} --label 1/1 --kind {rest}");
+    let region = |rest: &str| format!("region --label 1/1 {rest}");
+    let body = "--mass-kg 1 --stiffness-n-per-m 1 --force-n 1 --frequency-hz 1 --gap-m 1";
+    let of_second = "diagram --beta 1 --gap 1 --second-gap 1 --vary restitution --over 0:1:3";
+    let both_frequencies = "--beta cannot go together with --vary inverse-beta";
+    let rests = format!("curve {S} --label inf/1 --kind fold --vary gap=0:2 --and beta=0.5:1");
+    let undamped = "without damping the steady motion without impacts is one of many";
+    let no_orbit = "branch --inverse-beta 0.7 --gap 40 --restitution 0.5 --label 1/1 --vary gap --to 41";
     for (line, sentence) in [
         (format!("settle --beta nan {rest}"), "beta = NaN lies outside 1e-15 <= beta <= 1e15"),
         (format!("settle --beta inf {rest}"), "beta = inf lies outside"),
@@ -56,10 +65,7 @@ fn bad_questions_are_named() {
         ("map --inverse-beta 0:1:3 --gap 0:1:3 --restitution 0.5 --starts 3".into(), "1/beta = 0"),
         ("map --inverse-beta 1:2:3 --gap 0:1:3 --restitution 2 --starts 3".into(), "eps = 2"),
         (format!("diagram {S} --vary gap --over 0:1:3"), "--gap cannot go together with --vary gap"),
-        (
-            sweep("--beta 1 --vary inverse-beta --over 1:2:3 --gap 1"),
-            "--beta cannot go together with --vary inverse-beta",
-        ),
+        (sweep("--beta 1 --vary inverse-beta --over 1:2:3 --gap 1"), both_frequencies),
         (sweep("--inverse-beta 1 --vary gap"), "--over"),
         (sweep("--inverse-beta 1 --vary gap --over 0:1"), "A:B:N"),
         (sweep("--inverse-beta 1 --vary gap --over 0:nan:3"), "A:B:N"),
@@ -71,10 +77,7 @@ fn bad_questions_are_named() {
         (sweep("--beta 1 --gap 1 --vary second-gap --over 0:-1:3"), "no room"),
         (sweep("--beta 1 --gap 1 --vary second-restitution --over 0:1:3"), "no gap"),
         ("diagram --beta 1 --gap 1 --vary restitution --over 0:1.5:3".into(), "eps = 1.5"),
-        (
-            "diagram --beta 1 --gap 1 --second-gap 1 --vary restitution --over 0:1:3".into(),
-            "that of the second stop is not given",
-        ),
+        (of_second.into(), "that of the second stop is not given"),
         (sweep("--beta 1 --vary gap --over 0:1:3 --transient 1000001"), "transient = 1000001 lies outside 0 <="),
         (sweep("--beta 1 --vary gap --over 0:1:3 --transient -1"), "invalid value '-1'"),
         (sweep("--beta 1 --vary gap --over 0:1:3 --keep 0"), "keep = 0 lies outside 1 <= keep"),
@@ -92,68 +95,50 @@ fn bad_questions_are_named() {
         (format!("lyapunov {S} --x 1"), "x = 1 lies beyond the stop"),
         (format!("lyapunov {S} --section - --json"), "both want stdout"),
         (format!("lyapunov {S} --plot figure.eps"), "none of .svg, .png and .pdf"),
-        (format!("branch {S} --label 2/1 --vary gap --to 0.75"), "gap is to go from 0.75 to 0.75"),
-        (format!("branch {S} --label 2/1 --vary gap --to nan"), "gap delta = NaN"),
-        (format!("branch {S} --label 2/1 --vary restitution --to 1.5"), "eps = 1.5 lies outside"),
-        (format!("branch {S} --label 2/1 --vary mass --to 1"), "invalid value 'mass'"),
-        (format!("branch {S} --label 2/1 --vary second-gap --to 1"), "there is no second stop"),
+        (branch("gap --to 0.75"), "gap is to go from 0.75 to 0.75"),
+        (branch("gap --to nan"), "gap delta = NaN"),
+        (branch("restitution --to 1.5"), "eps = 1.5 lies outside"),
+        (branch("mass --to 1"), "invalid value 'mass'"),
+        (branch("second-gap --to 1"), "there is no second stop"),
         (format!("branch {S} --label inf/1 --vary gap --to 1"), "no admissible orbit inf/1 was found"),
-        (
-            format!("curve {S} --label inf/1 --kind fold --vary gap=0:2 --and beta=0.5:1"),
-            "a cycle that rests on a stop",
-        ),
-        (
-            format!("branch {S} --label 0 --vary gap --to 1"),
-            "without damping the steady motion without impacts is one of many",
-        ),
+        (rests, "a cycle that rests on a stop"),
+        (format!("branch {S} --label 0 --vary gap --to 1"), undamped),
         (format!("branch {S} --label 5/4 --vary gap --to 1 --orbit 99"), "there is no orbit 5/4 number 99"),
+        (no_orbit.into(), "no admissible orbit 1/1"),
+        (branch("gap --to 1 --follow 101"), "follow = 101 lies outside 0 <= follow <= 100"),
+        (branch("gap --to 1 --points 1"), "points = 1 lies outside 2 <= points"),
+        (branch("gap --to 1 --no-diagram"), "--plot FILE"),
+        (branch("gap --to 1 --plot a.png --orbit 0"), "there is no orbit 2/1 number 0"),
+        (branch("gap --to 1 --csv - --json"), "both want stdout"),
+        (curve("flip --vary gap --and beta=1:2"), "`gap` has no values"),
+        (curve("flip --vary mass=1:2 --and beta=1:2"), "parameters: beta, inverse-beta"),
+        (curve("flip --vary gap=2:1 --and beta=1:2"), "A < B"),
+        (curve("flip --vary gap=1:2 --and beta=0.5:2"), "gap = 0.75 lies outside the range"),
+        (curve("flip --vary gap=0:1 --and gap=0:1"), "do not span a plane"),
+        (curve("flip --vary gap=0.7:0.8 --and beta=0.5:1"), "no flip was found"),
+        (curve("tori --vary gap=0:1 --and beta=1:2"), "invalid value 'tori'"),
+        (curve("torus --vary gap=0:1 --and beta=1:2"), "are curves of machines"),
+        (region("--inverse-beta 1:2 --gap 1 --restitution 0.5"), "ranges A:B are given for 1"),
+        (region("--inverse-beta 1:2 --gap 1:2 --restitution 0.5:0.6"), "ranges A:B are given for 3"),
         (
-            "branch --inverse-beta 0.7 --gap 40 --restitution 0.5 --label 1/1 --vary gap --to 41".into(),
-            "no admissible orbit 1/1",
-        ),
-        (
-            format!("branch {S} --label 2/1 --vary gap --to 1 --follow 101"),
-            "follow = 101 lies outside 0 <= follow <= 100",
-        ),
-        (format!("branch {S} --label 2/1 --vary gap --to 1 --points 1"), "points = 1 lies outside 2 <= points"),
-        (format!("branch {S} --label 2/1 --vary gap --to 1 --no-diagram"), "--plot FILE"),
-        (format!("branch {S} --label 2/1 --vary gap --to 1 --plot a.png --orbit 0"), "there is no orbit 2/1 number 0"),
-        (format!("branch {S} --label 2/1 --vary gap --to 1 --csv - --json"), "both want stdout"),
-        (format!("curve {S} --label 1/1 --kind flip --vary gap --and beta=1:2"), "`gap` has no values"),
-        (format!("curve {S} --label 1/1 --kind flip --vary mass=1:2 --and beta=1:2"), "parameters: beta, inverse-beta"),
-        (format!("curve {S} --label 1/1 --kind flip --vary gap=2:1 --and beta=1:2"), "A < B"),
-        (
-            format!("curve {S} --label 1/1 --kind flip --vary gap=1:2 --and beta=0.5:2"),
-            "gap = 0.75 lies outside the range",
-        ),
-        (format!("curve {S} --label 1/1 --kind flip --vary gap=0:1 --and gap=0:1"), "do not span a plane"),
-        (format!("curve {S} --label 1/1 --kind flip --vary gap=0.7:0.8 --and beta=0.5:1"), "no flip was found"),
-        (format!("curve {S} --label 1/1 --kind tori --vary gap=0:1 --and beta=1:2"), "invalid value 'tori'"),
-        (format!("curve {S} --label 1/1 --kind torus --vary gap=0:1 --and beta=1:2"), "are curves of machines"),
-        ("region --label 1/1 --inverse-beta 1:2 --gap 1 --restitution 0.5".into(), "ranges A:B are given for 1"),
-        ("region --label 1/1 --inverse-beta 1:2 --gap 1:2 --restitution 0.5:0.6".into(), "ranges A:B are given for 3"),
-        (
-            "region --label 1/1 --mass-kg 1 --stiffness-n-per-m 1 --force-n 1 --frequency-hz 1 --gap-m 1 --gap 1 \
-             --inverse-beta 1:2 --restitution 0.5:0.6"
-                .into(),
+            region(&format!("{body} --gap 1 --inverse-beta 1:2 --restitution 0.5:0.6")),
             "--gap cannot go together with a system in physical units",
         ),
-        ("region --label 1/1 --inverse-beta 1:2 --gap 1:2 --restitution 0.5 --units si".into(), "--units si needs"),
-        ("region --label 1/1 --inverse-beta 1:2 --restitution 0.5:0.6".into(), "the gap is not given"),
-        ("region --label 1/1 --inverse-beta 0:2 --gap 1:2 --restitution 0.5".into(), "1/beta = 0"),
-        ("region --label 1/1 --inverse-beta 2:1 --gap 1:2 --restitution 0.5".into(), "A < B"),
-        ("region --label 1/1 --inverse-beta 1 --gap 1:2 --restitution 0.5:1.5".into(), "eps = 1.5"),
-        ("region --label 1/1 --gap 1:2 --restitution 0.5:0.7".into(), "exactly one of beta and inverse beta"),
+        (region("--inverse-beta 1:2 --gap 1:2 --restitution 0.5 --units si"), "--units si needs"),
+        (region("--inverse-beta 1:2 --restitution 0.5:0.6"), "the gap is not given"),
+        (region("--inverse-beta 0:2 --gap 1:2 --restitution 0.5"), "1/beta = 0"),
+        (region("--inverse-beta 2:1 --gap 1:2 --restitution 0.5"), "A < B"),
+        (region("--inverse-beta 1 --gap 1:2 --restitution 0.5:1.5"), "eps = 1.5"),
+        (region("--gap 1:2 --restitution 0.5:0.7"), "exactly one of beta and inverse beta"),
         ("region --label inf/1 --beta 1:2 --gap 1:2 --restitution 0.5".into(), "a cycle that rests"),
-        ("region --label 1/1 --beta 1:2 --gap 1:2 --restitution 0.5 --grid 1".into(), "grid = 1 lies outside 2 <="),
+        (region("--beta 1:2 --gap 1:2 --restitution 0.5 --grid 1"), "grid = 1 lies outside 2 <="),
         ("frobnicate".into(), "unrecognized subcommand"),
         ("completions tcsh-of-old".into(), "invalid value"),
     ] {
-        let folder = tempfile::tempdir().unwrap();
-        let complaint = refused_in(&folder, &line);
-        assert!(complaint.contains(sentence), "{line}: {complaint}");
-        assert!(complaint.starts_with("error: "), "{line}");
-        assert_eq!(folder.path().read_dir().unwrap().count(), 0, "{line}");
+        let folder = Folder::new();
+        let complaint = folder.refused(&line);
+        assert!(complaint.starts_with("error: ") && complaint.contains(sentence), "{line}: {complaint}");
+        assert_eq!(folder.count(), 0, "{line}");
     }
 }
 
@@ -194,7 +179,9 @@ fn all_that_is_missing_is_named_at_once() {
 fn typical_mistakes_get_a_hint() {
     let rest = "--gap 1 --restitution 0.5";
     let machine = "--mass-kg 1 --stiffness-n-per-m 1000 --force-n 1 --restitution 0.5";
-    for (line, hint) in [
+    let hertz = "hint: --frequency-hz takes a positive number of hertz; -5 Hz";
+    let chain = "settle-many --machine chain --sample lhs:3 --over frequency=1:2 --gap 1";
+    Folder::new().refuse([
         (format!("settle --beta 1,5 {rest}"), "hint: write 1.5"),
         ("settle --beta 1.5 --gap 1 --restitution 50%".into(), "hint: write 0.5"),
         (format!("map --beta 1:2 {rest} --starts 3"), "1:2:41 is 41 values"),
@@ -207,29 +194,19 @@ fn typical_mistakes_get_a_hint() {
         (format!("settle beta=1 {rest}"), "'--beta=1'"),
         (format!("settle --betta 1 {rest}"), "'--beta'"),
         (format!("settle --beta 1 {rest} --units SI"), "similar value exists: 'si'"),
-        (
-            format!("settle {machine} --frequency-hz -5 --gap-m 0.001"),
-            "hint: --frequency-hz takes a positive number of hertz; -5 Hz",
-        ),
+        (format!("settle {machine} --frequency-hz -5 --gap-m 0.001"), hertz),
         (format!("settle --beta 1 {rest} --csv no/such.csv"), "hint: `mkdir -p"),
         (format!("settle --beta 1 {rest} --plot a.jpg"), "hint: --plot a.svg"),
         ("run no.toml".into(), "hint: a plan is a TOML or JSON file"),
         ("settle --machine chain --restitution 0.9".into(), "--set PATH=VALUE"),
         ("settle --machine chain --units si".into(), "hint: results are in the units of the machine"),
         ("margins --machine chain --x 1".into(), "hint: --q and --qdot"),
-        (
-            "settle-many --machine chain --sample lhs:3 --over frequency=1:2 --gap 1".into(),
-            "has no effect with --machine",
-        ),
+        (chain.into(), "has no effect with --machine"),
         (format!("settle {S} --set stop.wall.gap=1"), "--set has no effect without --machine"),
         (format!("branch {S} --label 1/1 --vary gap --to 1 --also beta"), "hint: beta="),
         (format!("branch {S} --label 1/1 --vary gap --to 1 --also beta=0,8"), "hint: write 0.8"),
         (format!("attractors {S} --starts 1,000,000"), "hint: write 1000000"),
-    ] {
-        let folder = tempfile::tempdir().unwrap();
-        let complaint = refused_in(&folder, &line);
-        assert!(complaint.contains(hint), "{line}: {complaint}");
-    }
+    ]);
     // values with blanks
     for (flag, value, hint) in [
         ("--beta", "15 Hz", "--beta takes a number without unit; --frequency-hz takes hertz: 15"),

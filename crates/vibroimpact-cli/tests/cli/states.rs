@@ -1,8 +1,7 @@
 //! Whole states of machines: motions go on from what a command printed; and what is refused of machines.
 
-use crate::{json, machine_file, printed, ran, refused};
+use crate::{Folder, has, json, list, number, printed, rows};
 use serde_json::Value;
-use std::fs;
 
 /// A mass, 2 kg so that coordinates are rounded, with a damped pad whose surface recovers slowly, and friction.
 const PADS: &str = r#"
@@ -21,12 +20,11 @@ friction = [{ name = "guide", at = "other", sliding = 0.1, static = 0.15 }]
 /// The motion from the state of each printed event has the same printed events after it, to the last digit.
 #[test]
 fn a14_motions_go_on_from_printed_states() {
-    let (folder, machine) = machine_file(PADS);
-    let run = folder.path().join("run.json");
-    let simulate = format!("simulate --machine {}", machine.display());
-    let found = json(&format!("{simulate} --impacts 40"));
-    fs::write(&run, found.to_string()).unwrap();
-    let events = found["events"].as_array().unwrap();
+    let folder = Folder::with("pads.toml", PADS);
+    let simulate = "simulate --machine pads.toml";
+    let found = folder.json(&format!("{simulate} --impacts 40"));
+    folder.write("run.json", found.to_string());
+    let events = list(&found["events"]);
     let without_time = |event: &Value| {
         let mut event = event.clone();
         event.as_object_mut().unwrap().remove("time");
@@ -35,10 +33,10 @@ fn a14_motions_go_on_from_printed_states() {
     let mut surfaces = 0;
     for k in (0..30).filter(|k| events[*k]["kind"] != "graze") {
         surfaces += u32::from(events[k]["contacts"]["pad"].get("surface").is_some());
-        let again = json(&format!("{simulate} --impacts 10 --start {}#/events/{k}", run.display()));
+        let again = folder.json(&format!("{simulate} --impacts 10 --start run.json#/events/{k}"));
         let state = |event: &Value| (event["q"].clone(), event["exact"].clone());
         let next = events[k + 1..].iter().skip_while(|next| state(next) == state(&events[k]));
-        for (again, next) in again["events"].as_array().unwrap().iter().zip(next.take(9)) {
+        for (again, next) in list(&again["events"]).iter().zip(next.take(9)) {
             let (mut again, mut next) = (without_time(again), without_time(next));
             // times of slow impacts are counted from each state; those before it are rounded as differences of times
             for event in [&mut again, &mut next] {
@@ -49,7 +47,7 @@ fn a14_motions_go_on_from_printed_states() {
     }
     assert!(surfaces > 5, "{surfaces}");
     // the last event of a file is the default, and a start that is printed is whole too
-    let last = json(&format!("{simulate} --impacts 1 --start {}", run.display()));
+    let last = folder.json(&format!("{simulate} --impacts 1 --start run.json"));
     assert_eq!(last["start"]["contacts"], events[39]["contacts"]);
     assert_eq!(last["start"]["exact"], events[39]["exact"]);
 }
@@ -57,16 +55,15 @@ fn a14_motions_go_on_from_printed_states() {
 /// The state of a settled motion is one of the motion: it has the same cycle.
 #[test]
 fn a14_settled_states_are_whole() {
-    let (folder, machine) = machine_file(PADS);
-    let run = folder.path().join("run.json");
-    let found = json(&format!("settle --machine {}", machine.display()));
+    let folder = Folder::with("pads.toml", PADS);
+    let found = folder.json("settle --machine pads.toml");
     let state = &found["motion"]["state"];
     assert!(state["contacts"]["pad"].is_object() && state["exact"].is_object(), "{state}");
-    fs::write(&run, found.to_string()).unwrap();
-    let again = json(&format!("simulate --machine {} --impacts 2 --start {}", machine.display(), run.display()));
-    let cycle = found["motion"]["cycle"].as_array().unwrap();
-    for event in again["events"].as_array().unwrap() {
-        let close = |one: &Value, other: &Value| (one.as_f64().unwrap() - other.as_f64().unwrap()).abs() < 1e-9;
+    folder.write("run.json", found.to_string());
+    let again = folder.json("simulate --machine pads.toml --impacts 2 --start run.json");
+    let cycle = list(&found["motion"]["cycle"]);
+    for event in list(&again["events"]) {
+        let close = |one: &Value, other: &Value| (number(one) - number(other)).abs() < 1e-9;
         let same = |other: &&Value| other["kind"] == event["kind"] && close(&other["phase"], &event["phase"]);
         assert!(cycle.iter().any(|other| same(&other)), "{event} {cycle:?}");
     }
@@ -75,14 +72,9 @@ fn a14_settled_states_are_whole() {
 /// Tables say how far surfaces stand back, and what stops and joints do.
 #[test]
 fn a14_tables_have_states() {
-    let (_folder, machine) = machine_file(PADS);
-    let line = format!("simulate --machine {} --impacts 20 --csv -", machine.display());
-    let table = printed(&line);
-    assert!(
-        table.lines().next().unwrap().ends_with("force.guide,surface.pad,state.pad,state.wall,state.guide,phase,exact"),
-        "{table}"
-    );
-    assert!(table.contains(",closed,open,") && table.contains(",forward,"), "{table}");
+    let table = Folder::with("pads.toml", PADS).printed("simulate --machine pads.toml --impacts 20 --csv -");
+    let end = "force.guide,surface.pad,state.pad,state.wall,state.guide,phase,exact\n";
+    has(&table, &[end, ",closed,open,", ",forward,"]);
 }
 
 /// The rows of a table that are states after events, as starts, with their times.
@@ -119,25 +111,22 @@ fn states_of(table: &str, coordinates: &[&str], contacts: &[&str]) -> Vec<(f64, 
 /// The rows of a table after events are states from which the motion goes on to the last bit.
 #[test]
 fn a14_motions_go_on_from_rows_of_tables() {
-    let (folder, machine) = machine_file(PADS);
-    let run = folder.path().join("row.json");
-    let simulate = format!("simulate --machine {}", machine.display());
-    let found = json(&format!("{simulate} --impacts 30"));
-    let events: Vec<&Value> =
-        found["events"].as_array().unwrap().iter().filter(|event| event["kind"] != "graze").collect();
-    let table = printed(&format!("{simulate} --impacts 30 --csv -"));
+    let folder = Folder::with("pads.toml", PADS);
+    let simulate = "simulate --machine pads.toml";
+    let found = folder.json(&format!("{simulate} --impacts 30"));
+    let events: Vec<&Value> = list(&found["events"]).iter().filter(|event| event["kind"] != "graze").collect();
+    let table = folder.printed(&format!("{simulate} --impacts 30 --csv -"));
     let states = states_of(&table, &["mass", "other"], &["pad", "wall", "guide"]);
     assert!(states.len() > 20, "{table}");
     for (time, state) in &states[..20] {
-        let last = events.iter().rposition(|event| event["time"].as_f64().unwrap() <= *time).unwrap();
+        let last = events.iter().rposition(|event| number(&event["time"]) <= *time).unwrap();
         for name in ["q", "qdot", "phase", "contacts", "exact"] {
             assert_eq!(state[name], events[last][name], "{name} at {time}");
         }
-        fs::write(&run, serde_json::json!({ "start": state }).to_string()).unwrap();
-        let again = json(&format!("{simulate} --impacts 5 --start {}#/start", run.display()));
-        let again: Vec<&Value> =
-            again["events"].as_array().unwrap().iter().filter(|event| event["kind"] != "graze").collect();
-        for (again, next) in again.iter().zip(&events[last + 1..]) {
+        folder.write("row.json", serde_json::json!({ "start": state }).to_string());
+        let again = folder.json(&format!("{simulate} --impacts 5 --start row.json#/start"));
+        let again = list(&again["events"]).iter().filter(|event| event["kind"] != "graze");
+        for (again, next) in again.zip(&events[last + 1..]) {
             for name in ["kind", "stop", "q", "qdot", "phase", "speed"] {
                 assert_eq!(again[name], next[name], "{name} after {time}");
             }
@@ -147,13 +136,13 @@ fn a14_motions_go_on_from_rows_of_tables() {
     let line = "simulate --inverse-beta 1.3 --gap 0.2 --restitution 0.6";
     let found = json(&format!("{line} --impacts 20"));
     let table = printed(&format!("{line} --impacts 20 --csv -"));
-    let rows: Vec<Vec<&str>> = table.lines().skip(1).map(|row| row.split(',').collect()).collect();
-    for event in found["events"].as_array().unwrap().iter().take(15).filter(|event| event["kind"] == "impact") {
-        let time = event["time"].as_f64().unwrap();
-        let row = rows.iter().rfind(|row| row[0].parse::<f64>().unwrap() <= time).unwrap();
+    let rows = rows(&table);
+    for event in list(&found["events"]).iter().take(15).filter(|event| event["kind"] == "impact") {
+        let time = number(&event["time"]);
+        let row = rows[1..].iter().rfind(|row| row[0].parse::<f64>().unwrap() <= time).unwrap();
         let again = json(&format!("{line} --x {} --v {} --phase {} --impacts 3", row[1], row[2], row[3]));
-        let next = found["events"].as_array().unwrap().iter().skip_while(|next| next["time"].as_f64().unwrap() <= time);
-        for (again, next) in again["events"].as_array().unwrap().iter().zip(next) {
+        let next = list(&found["events"]).iter().skip_while(|next| number(&next["time"]) <= time);
+        for (again, next) in list(&again["events"]).iter().zip(next) {
             for name in ["kind", "q", "qdot", "phase", "speed"] {
                 assert_eq!(again[name], next[name], "{name} after {time}");
             }
@@ -167,49 +156,38 @@ fn a14_motions_go_on_from_rows_of_tables() {
 fn a13_a_search_limit_is_an_end() {
     let machine = "[machine]\ncoordinates = [\"fast\", \"slow\"]\nmass = [1, 1]\nstiffness = [1e14, 1]\n[[machine.stop]]\n\
         name = \"stop\"\ndirection = [1, 1]\ngap = 0.5\nrestitution = 0.5\n";
-    let (_folder, file) = machine_file(machine);
-    let line = |verb: &str| format!("{verb} --machine {} --q 0.1,0 --qdot 0,0.45", file.display());
-    let (code, text, complaint) = ran(".", &line("simulate --time 10000"));
+    let folder = Folder::with("two.toml", machine);
+    let line = |verb: &str| format!("{verb} --machine two.toml --q 0.1,0 --qdot 0,0.45");
+    let (code, text, complaint) = folder.ran(&line("simulate --time 10000"));
     assert_eq!(code, Some(1), "{text} {complaint}");
-    assert!(
-        text.contains("ran out of steps") && complaint.contains("hint: numbers that lie many orders"),
-        "{complaint}"
-    );
-    let settled = printed(&line("settle"));
+    has(&text, &["ran out of steps"]);
+    has(&complaint, &["hint: numbers that lie many orders"]);
+    let settled = folder.printed(&line("settle"));
     // 10 000 radians of the mode with stiffness 1e14, beside which a stiffness of 1 is none
-    assert!(settled.contains("no event within a time of 0.001 after the last one"), "{settled}");
+    has(&settled, &["no event within a time of 0.001 after the last one"]);
 }
 
 /// Contacts that do not agree with a start, states that are none, and machines that are none.
 #[test]
 fn a13_what_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = |name: &str, text: &str| {
-        let path = folder.path().join(name);
-        fs::write(&path, text).unwrap();
-        path.display().to_string()
-    };
-    let closed = file("closed.toml", &format!("[start]\ncontacts = {{ pad = {{ state = \"closed\" }} }}\n{PADS}"));
-    assert!(refused(&format!("simulate --machine {closed}")).contains("contact.pad: the stop has the gap 0.05"));
-    let unknown = file("unknown.toml", &format!("[start]\ncontacts = {{ pat = {{ state = \"closed\" }} }}\n{PADS}"));
-    assert!(refused(&format!("simulate --machine {unknown}")).contains("known names are pad, wall, guide"));
-    let none = file("none.json", "{\"text\": 1}");
-    let pads = file("pads.toml", PADS);
-    assert!(refused(&format!("simulate --machine {pads} --start {none}")).contains("has no state of a machine"));
-
-    let message = refused("lyapunov --machine two-mass-hammer --impacts 10");
-    assert!(message.contains("impacts = 10 lies outside 25 <= impacts <= 10000000"), "{message}");
-    let message = refused("lyapunov --machine two-mass-hammer --transient 20000000");
-    assert!(message.contains("transient = 20000000 lies outside 0 <= transient <= 1000000"), "{message}");
-
-    let link = file("link.toml", "[machine]\nbodies = { a = 1 }\nlink = [{ between = [\"a\", \"ground\"] }]\n");
-    assert!(refused(&format!("machine show {link}")).contains("link.a-ground: a stiffness or a damping is needed"));
+    let folder = Folder::with("pads.toml", PADS);
+    let start = |contacts: &str| format!("[start]\ncontacts = {{ {contacts} }}\n{PADS}");
+    folder.write("closed.toml", start("pad = { state = \"closed\" }"));
+    folder.write("unknown.toml", start("pat = { state = \"closed\" }"));
+    folder.write("none.json", "{\"text\": 1}");
+    folder.write("link.toml", "[machine]\nbodies = { a = 1 }\nlink = [{ between = [\"a\", \"ground\"] }]\n");
     let bodies: Vec<String> = (0..3000).map(|k| format!("b{k} = 1")).collect();
-    let large = file("large.toml", &format!("[machine]\nbodies = {{ {} }}\n", bodies.join(", ")));
-    assert!(
-        refused(&format!("machine show {large}"))
-            .contains("a machine has at most 1000 coordinates, and this one has 3000")
-    );
+    folder.write("large.toml", format!("[machine]\nbodies = {{ {} }}\n", bodies.join(", ")));
+    let lyapunov = "lyapunov --machine two-mass-hammer";
+    folder.refuse([
+        ("simulate --machine closed.toml", "contact.pad: the stop has the gap 0.05"),
+        ("simulate --machine unknown.toml", "known names are pad, wall, guide"),
+        ("simulate --machine pads.toml --start none.json", "has no state of a machine"),
+        ("machine show link.toml", "link.a-ground: a stiffness or a damping is needed"),
+        ("machine show large.toml", "a machine has at most 1000 coordinates, and this one has 3000"),
+        (&format!("{lyapunov} --impacts 10"), "impacts = 10 lies outside 25 <= impacts <= 10000000"),
+        (&format!("{lyapunov} --transient 20000000"), "transient = 20000000 lies outside 0 <= transient <= 1000000"),
+    ]);
 }
 
 /// A matrix that is symmetric but for rounding is accepted, and is exactly symmetric then.
@@ -217,9 +195,9 @@ fn a13_what_is_refused() {
 fn a13_rounded_matrices_are_made_symmetric() {
     let text = "[machine]\ncoordinates = [\"a\", \"b\"]\nmass = [1, 1]\nstiffness = [1, 1]\n\
                 damping = [[2e-3, 1.6e-20], [0, 3e-3]]\n";
-    let (_folder, path) = machine_file(text);
-    let shown = json(&format!("machine show {}", path.display()));
+    let folder = Folder::with("matrix.toml", text);
+    let shown = folder.json("machine show matrix.toml");
     assert_eq!(shown["machine"]["damping"], serde_json::json!([[2e-3, 8e-21], [8e-21, 3e-3]]));
-    fs::write(&path, text.replace("1.6e-20", "1.6e-10")).unwrap();
-    assert!(refused(&format!("machine show {}", path.display())).contains("the matrix is not symmetric"));
+    folder.write("matrix.toml", text.replace("1.6e-20", "1.6e-10"));
+    folder.refuse([("machine show matrix.toml", "the matrix is not symmetric")]);
 }

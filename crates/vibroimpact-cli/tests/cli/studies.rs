@@ -1,7 +1,7 @@
 //! Tests of studies from outside: killed, resumed, damaged, run twice at the same time, and refused.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use crate::{files, json, printed_in, ran, vibro};
+use crate::{Folder, has, number, rows, vibro};
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -22,12 +22,18 @@ axes = [
 ]
 "#;
 
-fn plan(folder: &Path, text: &str) {
-    fs::write(folder.join("study.toml"), text).unwrap();
+/// A folder with the study of a plan.
+fn study(plan: &str) -> Folder {
+    Folder::with("study.toml", plan)
+}
+
+/// The plan with so many values on both axes.
+fn smaller(count: u32) -> String {
+    PLAN.replace(":28\"", &format!(":{count}\""))
 }
 
 /// Starts `vibro` in a folder, in the background.
-fn begin(folder: &Path, line: &str) -> Child {
+fn begin(folder: &Folder, line: &str) -> Child {
     Command::new(env!("CARGO_BIN_EXE_vibro"))
         .args(line.split_whitespace())
         .current_dir(folder)
@@ -37,15 +43,12 @@ fn begin(folder: &Path, line: &str) -> Child {
         .unwrap()
 }
 
-/// Exit code and stderr of `vibro` in a folder.
-fn said(folder: &Path, line: &str) -> (Option<i32>, String) {
-    let (code, _, complaint) = ran(folder, line);
-    (code, complaint)
-}
-
-fn done(folder: &Path, line: &str) {
-    let (code, complaint) = said(folder, line);
-    assert_eq!(code, Some(0), "{line}: {complaint}");
+impl Folder {
+    /// The exit code of `vibro`, and what it complains of.
+    fn said(&self, line: &str) -> (Option<i32>, String) {
+        let (code, _, complaint) = self.ran(line);
+        (code, complaint)
+    }
 }
 
 /// A study that is killed at twenty moments and resumed is equal to that of a run without interruption, byte for byte; with
@@ -64,28 +67,27 @@ fn sharded() -> String {
 
 #[cfg(unix)]
 fn killed_at_ten_moments(text: &str) {
-    let folder = tempfile::tempdir().unwrap();
-    plan(folder.path(), text);
+    let folder = study(text);
     let begun = Instant::now();
-    done(folder.path(), "run study.toml --store whole.zarr --threads 2");
+    folder.printed("run study.toml --store whole.zarr --threads 2");
     let time = begun.elapsed();
-    let want = files(&folder.path().join("whole.zarr"));
+    let want = folder.files("whole.zarr");
     let (mut killed, mut moment) = (0, 0_u64);
     let mut store = 0;
     while killed < 10 {
         // a fixed pseudorandom sequence of moments, spread over a third of the duration of the whole run
         moment = moment.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let share = (moment >> 33) as f64 / (1_u64 << 31) as f64;
-        let verb = if folder.path().join(format!("{store}.zarr/zarr.json")).exists() {
+        let verb = if folder.at(&format!("{store}.zarr/zarr.json")).exists() {
             format!("resume {store}.zarr --threads 2")
         } else {
             format!("run study.toml --store {store}.zarr --threads 2")
         };
-        let mut run = begin(folder.path(), &verb);
+        let mut run = begin(&folder, &verb);
         std::thread::sleep(time.mul_f64(0.33 * share));
         if run.try_wait().unwrap().is_some() {
             // the study was complete before the moment came, so a new one is begun
-            assert!(files(&folder.path().join(format!("{store}.zarr"))) == want, "{killed} kills");
+            assert!(folder.files(&format!("{store}.zarr")) == want, "{killed} kills");
             store += 1;
             continue;
         }
@@ -93,10 +95,10 @@ fn killed_at_ten_moments(text: &str) {
         run.wait().unwrap();
         killed += 1;
     }
-    let place = folder.path().join(format!("{store}.zarr"));
-    let verb = if place.join("zarr.json").exists() { "resume" } else { "run study.toml --store" };
-    done(folder.path(), &format!("{verb} {store}.zarr"));
-    assert!(files(&place) == want);
+    let begun = folder.at(&format!("{store}.zarr/zarr.json")).exists();
+    let verb = if begun { "resume" } else { "run study.toml --store" };
+    folder.printed(&format!("{verb} {store}.zarr"));
+    assert!(folder.files(&format!("{store}.zarr")) == want);
 }
 
 /// The parts of sweeps in a store, with the times at which they were written.
@@ -117,7 +119,7 @@ fn parts_in(store: &Path) -> Vec<(std::ffi::OsString, std::time::SystemTime)> {
 fn sweeps_go_on_however_often_they_are_killed() {
     // a part of a sweep is written two seconds after the begin of a run
     const PART: Duration = Duration::from_secs(2);
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let line = |store: &str, values: u32| {
         format!(
             "diagram --inverse-beta 1.11 --restitution 0.5 --vary gap --over 2:4:{values} --transient 20000 --keep 16 \
@@ -126,21 +128,21 @@ fn sweeps_go_on_however_often_they_are_killed() {
     };
     let time = |store: &str, values: u32| {
         let begun = Instant::now();
-        done(folder.path(), &line(store, values));
+        folder.printed(&line(store, values));
         begun.elapsed()
     };
     // as many values as take three times as long
     let values = 8 * 3 * PART.as_millis() / time("few", 8).as_millis().max(1);
     let values = u32::try_from(values).unwrap().clamp(8, 20_000);
     time("whole", values);
-    let want = files(&folder.path().join("whole.zarr"));
-    let place = folder.path().join("killed.zarr");
+    let want = folder.files("whole.zarr");
+    let place = folder.at("killed.zarr");
     let (mut kills, mut parts) = (0, 0);
     loop {
         let goes_on = kills % 2 == 1 && place.join("zarr.json").exists();
         let line = if goes_on { "resume killed.zarr --threads 1".to_owned() } else { line("killed", values) };
         let before = parts_in(&place);
-        let mut run = begin(folder.path(), &line);
+        let mut run = begin(&folder, &line);
         // the first one before anything is written, the others when a further part of a sweep has been written
         std::thread::sleep(PART / 4);
         while kills > 0 && parts_in(&place) == before && run.try_wait().unwrap().is_none() {
@@ -157,22 +159,21 @@ fn sweeps_go_on_however_often_they_are_killed() {
         assert!(kills < 40, "it does not get on");
     }
     assert!(kills >= 2 && parts >= 1, "{values} values, {kills} kills, {parts} with parts");
-    assert!(files(&place) == want, "{values} values, {kills} kills");
+    assert!(folder.files("killed.zarr") == want, "{values} values, {kills} kills");
 }
 
 /// After Ctrl-C, complete tiles are kept, and a hint says how to continue.
 #[test]
 #[cfg(unix)]
 fn stopped_it_can_be_resumed() {
-    let folder = tempfile::tempdir().unwrap();
-    plan(folder.path(), &PLAN.replace(":28\"", ":120\""));
+    let folder = study(&smaller(120));
     let run = Command::new(env!("CARGO_BIN_EXE_vibro"))
         .args(["run", "study.toml", "--store", "s.zarr"])
-        .current_dir(folder.path())
+        .current_dir(&folder)
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    let status = || folder.path().join("s.zarr/status/c");
+    let status = || folder.at("s.zarr/status/c");
     let begun = Instant::now();
     while !status().exists() && begun.elapsed() < Duration::from_secs(30) {
         std::thread::sleep(Duration::from_millis(5));
@@ -182,7 +183,7 @@ fn stopped_it_can_be_resumed() {
     let complaint = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(130), "{complaint}");
     assert!(complaint.contains("`vibro resume` goes on"), "{complaint}");
-    let answer = json(&format!("status {}", folder.path().join("s.zarr").display()));
+    let answer = folder.json("status s.zarr");
     assert!(answer["tiles_done"].as_u64().unwrap() > 0 && answer["complete"] == false, "{answer}");
     assert_eq!(answer["tiles"], 900);
 }
@@ -190,48 +191,42 @@ fn stopped_it_can_be_resumed() {
 /// A run whose budget is spent says what is done and how to go on; what it leaves is completed to the same bytes.
 #[test]
 fn a_budget_stops_a_run_and_the_status_says_how_far_it_is() {
-    let folder = tempfile::tempdir().unwrap();
-    plan(folder.path(), &PLAN.replace(":28\"", ":16\""));
-    done(folder.path(), "run study.toml --store whole.zarr --threads 1");
-    let want = files(&folder.path().join("whole.zarr"));
-    let (code, note) = said(folder.path(), "run study.toml --store s.zarr --budget 0.000001s --threads 1");
+    let folder = study(&smaller(16));
+    folder.printed("run study.toml --store whole.zarr --threads 1");
+    let want = folder.files("whole.zarr");
+    let (code, note) = folder.said("run study.toml --store s.zarr --budget 0.000001s --threads 1");
     assert!(code == Some(130), "{note}");
-    assert!(note.contains("1 of 16 tiles computed; 15 left\n"), "{note}");
-    assert!(
-        note.contains("stopped: the budget is spent, 1 of 16 tiles are there; `vibro resume s.zarr` goes on"),
-        "{note}"
-    );
-    let place = folder.path().join("s.zarr");
-    let status = || json(&format!("status {}", place.display()));
+    let stopped = "stopped: the budget is spent, 1 of 16 tiles are there; `vibro resume s.zarr` goes on";
+    has(&note, &["1 of 16 tiles computed; 15 left\n", stopped]);
+    let status = || folder.json("status s.zarr");
     let first = status();
     assert_eq!((first["tiles_done"].as_u64(), first["tiles_left"].as_u64()), (Some(1), Some(15)), "{first}");
     assert_eq!((&first["progress"], &first["tiles_damaged"]), (&(16.0 / 256.0).into(), &0.into()));
     assert_eq!(first["tile"].to_string(), r#"{"gap":4,"inverse_beta":4}"#);
     assert_eq!(first["cost"]["tiles"], 1);
-    let watch = begin(folder.path(), "status s.zarr --watch --every 0.01s --json");
-    let (code, printed, _) = ran(folder.path(), "resume s.zarr --budget 0.000001s --json");
+    let watch = begin(&folder, "status s.zarr --watch --every 0.01s --json");
+    let (code, printed, _) = folder.ran("resume s.zarr --budget 0.000001s --json");
     assert_eq!((code, printed.as_str()), (Some(130), ""));
     let map = "map --inverse-beta 0.6:1.9:16 --gap 0:3:16 --restitution 0.5 --starts 4 --impacts 2000 --tile 4 --store s.zarr";
-    assert_eq!(said(folder.path(), &format!("{map} --budget 0.000001s --plot a.png")).0, Some(130));
-    assert!(!folder.path().join("a.png").exists());
+    assert_eq!(folder.said(&format!("{map} --budget 0.000001s --plot a.png")).0, Some(130));
+    assert!(!folder.at("a.png").exists());
     // what is there is drawn
-    done(folder.path(), "plot s.zarr some.svg");
-    done(folder.path(), "resume s.zarr --budget 1h");
-    assert!(files(&place) == want);
+    folder.printed("plot s.zarr some.svg");
+    folder.printed("resume s.zarr --budget 1h");
+    assert!(folder.files("s.zarr") == want);
     // with shards
     let map = map.replace("--store s.zarr", "--shard 3 --store shards.zarr");
-    assert_eq!(said(folder.path(), &format!("{map} --budget 0.000001s")).0, Some(130));
-    done(folder.path(), "plot shards.zarr some-shards.svg");
-    done(folder.path(), &format!("{map} --threads 2"));
-    let sharded = json(&format!("status {}", folder.path().join("shards.zarr").display()));
+    assert_eq!(folder.said(&format!("{map} --budget 0.000001s")).0, Some(130));
+    folder.printed("plot shards.zarr some-shards.svg");
+    folder.printed(&format!("{map} --threads 2"));
+    let sharded = folder.json("status shards.zarr");
     assert_eq!(sharded["shard"].to_string(), r#"{"gap":12,"inverse_beta":12}"#);
-    assert_eq!(sharded["files"].as_u64(), Some(files(&folder.path().join("shards.zarr")).len() as u64));
-    done(folder.path(), "verify shards.zarr --sample 16");
+    assert_eq!(sharded["files"].as_u64(), Some(folder.files("shards.zarr").len() as u64));
+    folder.printed("verify shards.zarr --sample 16");
     for store in ["s", "shards"] {
-        done(folder.path(), &format!("export {store}.zarr --csv {store}.csv"));
+        folder.printed(&format!("export {store}.zarr --csv {store}.csv"));
     }
-    let table = |store: &str| fs::read(folder.path().join(format!("{store}.csv"))).unwrap();
-    assert!(table("s") == table("shards"));
+    assert!(folder.bytes("s.csv") == folder.bytes("shards.csv"));
     // the watch ends when the store is complete
     assert!(watch.wait_with_output().unwrap().status.success());
     let last = status();
@@ -239,37 +234,29 @@ fn a_budget_stops_a_run_and_the_status_says_how_far_it_is() {
     let regions = last["cost"]["regions"].as_array().unwrap();
     let points: u64 = regions.iter().map(|region| region["points"].as_u64().unwrap()).sum();
     assert_eq!((regions.len(), points), (16, 256));
-    let line = printed_in(folder.path(), "status s.zarr --watch");
+    let line = folder.printed("status s.zarr --watch");
     assert_eq!(line, "100.0 %  16 of 16 tiles, 256 of 256 points, complete\n");
-    for (line, hint) in [
+    folder.refuse([
         ("run study.toml --budget 8", "hint: 8h, 8m or 8s"),
         ("run study.toml --budget -1h", "outside 0 < time <= 36500d"),
         ("resume s.zarr --budget 04:00:00", "hint: write 4h"),
         ("status s.zarr --watch --every 0s", "outside 0 < time <= 36500d"),
         ("map --inverse-beta 0.6:1.9:16 --gap 0:3:16 --restitution 0.5 --starts 4 --budget 1h", "--store"),
-    ] {
-        let (code, note) = said(folder.path(), line);
-        assert!(code == Some(2) && note.contains(hint), "{line}: {note}");
-    }
+    ]);
 }
 
 /// The estimate holds for the run: points, files to the last one, and times and bytes in their order of magnitude.
 #[test]
 fn an_estimate_before_anything_starts() {
-    let folder = tempfile::tempdir().unwrap();
-    plan(folder.path(), &PLAN.replace(":28\"", ":16\""));
-    let estimate = |flags: &str| {
-        let printed = printed_in(folder.path(), &format!("estimate study.toml --json {flags}"));
-        serde_json::from_str::<serde_json::Value>(&printed).unwrap()
-    };
+    let folder = study(&smaller(16));
+    let estimate = |flags: &str| folder.json(&format!("estimate study.toml {flags}"));
     let found = estimate("--threads 2");
-    assert!(fs::read_dir(folder.path()).unwrap().count() == 1, "nothing is written");
-    done(folder.path(), "run study.toml --threads 2");
-    let status = json(&format!("status {}", folder.path().join("study.zarr").display()));
+    assert_eq!(folder.count(), 1, "nothing is written");
+    folder.printed("run study.toml --threads 2");
+    let status = folder.json("status study.zarr");
     assert_eq!((&found["points"], &found["tiles"], &found["threads"]), (&256.into(), &16.into(), &2.into()));
     assert_eq!((&found["points_sampled"], &found["plan_hash"]), (&64.into(), &status["plan_hash"]));
-    assert_eq!(found["files"].as_u64(), Some(files(&folder.path().join("study.zarr")).len() as u64));
-    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    assert_eq!(found["files"].as_u64(), Some(folder.files("study.zarr").len() as u64));
     let seconds = number(&found["processor_seconds"]);
     let interval = [0, 1].map(|k| number(&found["processor_seconds_interval"][k]));
     assert!(interval[0] <= seconds && seconds <= interval[1] && interval[0] > 0.0, "{found}");
@@ -284,98 +271,85 @@ fn an_estimate_before_anything_starts() {
         (&all["points_sampled"], &all["processor_seconds_interval"][0]),
         (&256.into(), &all["processor_seconds"])
     );
-    let text = printed_in(folder.path(), "estimate study.toml --sample 4 --threads 1");
-    assert!(
-        text.contains("256 points in 16 tiles\nprocessor time: about ") && text.contains("from 4 points"),
-        "{text}"
+    let text = folder.printed("estimate study.toml --sample 4 --threads 1");
+    has(
+        &text,
+        &["256 points in 16 tiles\nprocessor time: about ", "from 4 points", "time with 1 thread: about ", "\nstore: "],
     );
-    assert!(text.contains("time with 1 thread: about ") && text.contains("\nstore: "), "{text}");
-    fs::write(folder.path().join("no.toml"), PLAN.replace("map", "settle")).unwrap();
-    assert_eq!(said(folder.path(), "estimate no.toml").0, Some(2));
-    assert_eq!(said(folder.path(), "estimate study.toml --sample 0").0, Some(2));
+    folder.write("no.toml", PLAN.replace("map", "settle"));
+    folder.refuse([("estimate no.toml", ""), ("estimate study.toml --sample 0", "")]);
 }
 
+/// Runs at the same time, with and without shards, and runs for a part of the tiles, in any order.
 #[test]
-fn two_at_once_and_parts_fill_shards() {
-    let folder = tempfile::tempdir().unwrap();
-    plan(folder.path(), &sharded());
-    done(folder.path(), "run study.toml --store whole.zarr --threads 1");
-    let want = files(&folder.path().join("whole.zarr"));
-    for number in 0..3 {
-        let line = format!("run study.toml --store both{number}.zarr --threads 2");
-        let mut both = [1, 2].map(|_| begin(folder.path(), &line));
-        for run in &mut both {
-            assert!(run.wait().unwrap().success());
+fn two_at_once_and_parts_make_the_same_store() {
+    for plan in [PLAN, &sharded()] {
+        let folder = study(plan);
+        folder.printed("run study.toml --store whole.zarr --threads 1");
+        let want = folder.files("whole.zarr");
+        for number in 0..2 {
+            let line = format!("run study.toml --store both{number}.zarr --threads 2");
+            let mut both = [1, 2].map(|_| begin(&folder, &line));
+            assert!(both.iter_mut().all(|run| run.wait().unwrap().success()));
+            assert!(folder.files(&format!("both{number}.zarr")) == want, "{number}");
         }
-        assert!(files(&folder.path().join(format!("both{number}.zarr"))) == want, "{number}");
-    }
-    // parts of tiles, and parts of whole shards
-    for (of, store) in [(3, "tiles.zarr"), (2, "shards.zarr")] {
-        let mut parts = (1..=of).map(|part| format!("run study.toml --store {store} --tiles {part}/{of}"));
-        let mut runs: Vec<Child> = parts.by_ref().map(|line| begin(folder.path(), &line)).collect();
-        assert!(runs.iter_mut().all(|run| run.wait().unwrap().success()));
-        // two parts that end at the same moment may each see the other's last tile missing
-        done(folder.path(), &format!("resume {store}"));
-        assert!(files(&folder.path().join(store)) == want, "{store}");
+        for part in [2, 3, 1] {
+            folder.printed(&format!("run study.toml --store parts.zarr --tiles {part}/3"));
+        }
+        assert!(folder.files("parts.zarr") == want);
+        // parts of tiles, and parts of whole shards
+        for (of, store) in [(3, "tiles.zarr"), (2, "shards.zarr")] {
+            let mut parts = (1..=of).map(|part| format!("run study.toml --store {store} --tiles {part}/{of}"));
+            let mut runs: Vec<Child> = parts.by_ref().map(|line| begin(&folder, &line)).collect();
+            assert!(runs.iter_mut().all(|run| run.wait().unwrap().success()));
+            // two parts that end at the same moment may each see the other's last tile missing
+            folder.printed(&format!("resume {store}"));
+            assert!(folder.files(store) == want, "{store}");
+        }
     }
 }
 
+/// The flags of a command are the plan of a file, and so is the plan in a store.
 #[test]
-fn two_at_once_parts_in_any_order_and_flags_make_the_same_store() {
-    let folder = tempfile::tempdir().unwrap();
-    plan(folder.path(), PLAN);
-    done(folder.path(), "run study.toml --store whole.zarr --threads 1");
-    let want = files(&folder.path().join("whole.zarr"));
-    let mut both = [1, 2].map(|_| begin(folder.path(), "run study.toml --store both.zarr --threads 2"));
-    for run in &mut both {
-        assert!(run.wait().unwrap().success());
-    }
-    assert!(files(&folder.path().join("both.zarr")) == want);
-    for part in [2, 3, 1] {
-        done(folder.path(), &format!("run study.toml --store parts.zarr --tiles {part}/3"));
-    }
-    assert!(files(&folder.path().join("parts.zarr")) == want);
-    done(
-        folder.path(),
-        "map --inverse-beta 0.6:1.9:28 --gap 0:3:28 --restitution 0.5 --starts 4 --impacts 2000 --store flags.zarr --tile 4 --csv a.csv",
-    );
-    assert!(files(&folder.path().join("flags.zarr")) == want);
-    let line = "map --inverse-beta 0.6:1.9:28 --gap 0:3:28 --restitution 0.5 --starts 4 --impacts 2000 --csv b.csv";
-    done(folder.path(), line);
-    assert!(fs::read(folder.path().join("a.csv")).unwrap() == fs::read(folder.path().join("b.csv")).unwrap());
-    // the plan in a store can be read as a plan
-    let answer = json(&format!("status {}", folder.path().join("whole.zarr").display()));
-    fs::write(folder.path().join("again.json"), answer["plan"].to_string()).unwrap();
-    done(folder.path(), "run again.json --store again.zarr");
-    assert!(files(&folder.path().join("again.zarr")) == want);
+fn flags_and_plans_in_stores_are_plans() {
+    let folder = study(PLAN);
+    folder.printed("run study.toml --store whole.zarr");
+    let want = folder.files("whole.zarr");
+    let map = "map --inverse-beta 0.6:1.9:28 --gap 0:3:28 --restitution 0.5 --starts 4 --impacts 2000";
+    folder.printed(&format!("{map} --store flags.zarr --tile 4 --csv a.csv"));
+    assert!(folder.files("flags.zarr") == want);
+    folder.printed(&format!("{map} --csv b.csv"));
+    assert!(folder.bytes("a.csv") == folder.bytes("b.csv"));
+    let answer = folder.json("status whole.zarr");
+    folder.write("again.json", answer["plan"].to_string());
+    folder.printed("run again.json --store again.zarr");
+    assert!(folder.files("again.zarr") == want);
 }
 
 #[test]
 fn damage_is_found_by_verify_and_mended_by_resume() {
-    let folder = tempfile::tempdir().unwrap();
-    plan(folder.path(), &PLAN.replace(":28\"", ":12\""));
-    done(folder.path(), "run study.toml");
-    let store = folder.path().join("study.zarr");
-    let want = files(&store);
-    done(folder.path(), "verify study.zarr --sample 9");
-    let chunk = store.join("label/c/1/2/0");
+    let folder = study(&smaller(12));
+    folder.printed("run study.toml");
+    let want = folder.files("study.zarr");
+    folder.printed("verify study.zarr --sample 9");
+    let chunk = folder.at("study.zarr/label/c/1/2/0");
     let bytes = fs::read(&chunk).unwrap();
     let mut flipped = bytes.clone();
     flipped[bytes.len() / 2] ^= 4;
     for damaged in [flipped.as_slice(), &bytes[..bytes.len() - 1], b""] {
         fs::write(&chunk, damaged).unwrap();
-        let (code, text, _) = ran(folder.path(), "verify study.zarr");
+        let (code, text, _) = folder.ran("verify study.zarr");
         assert_eq!(code, Some(1), "{text}");
         assert!(text.contains("tile 5: a chunk is missing, cut short or has a wrong check sum"), "{text}");
-        let (code, note) = said(folder.path(), "resume study.zarr");
+        let (code, note) = folder.said("resume study.zarr");
         assert!(code == Some(0) && note.contains("1 of 9 tiles computed, 1 of them because of damage"), "{note}");
-        assert!(files(&store) == want);
+        assert!(folder.files("study.zarr") == want);
     }
 }
 
 #[test]
 fn tables_and_figures_of_every_kind_of_store() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let system = "--inverse-beta 1.3 --gap 0.75 --restitution 0.5";
     let free = "--inverse-beta 1.3 --restitution 0.5";
     for (line, fast) in [
@@ -386,62 +360,55 @@ fn tables_and_figures_of_every_kind_of_store() {
         ("map --beta 0.5:2:8:log --gap 0.5,1,2 --restitution 0.5 --starts 3".to_owned(), true),
         ("map --beta 0.8 --gap 0:2:3 --restitution 0.3,0.6 --damping 0:0.1:2 --starts 2".to_owned(), false),
     ] {
-        let file = |name: &str| folder.path().join(name);
         let figure = if fast { "--plot a.svg" } else { "" };
-        done(folder.path(), &format!("{line} --csv a.csv {figure} --force"));
+        folder.printed(&format!("{line} --csv a.csv {figure} --force"));
         let store = "s.zarr";
-        let _ = fs::remove_dir_all(file(store));
-        let figure = if fast { "--plot b.svg" } else { "" };
-        done(folder.path(), &format!("{line} --csv b.csv {figure} --store {store} --force"));
-        assert!(fs::read(file("a.csv")).unwrap() == fs::read(file("b.csv")).unwrap(), "{line}");
+        let _ = fs::remove_dir_all(folder.at(store));
+        folder.printed(&format!("{line} --csv b.csv {} --store {store} --force", figure.replace('a', "b")));
+        assert!(folder.bytes("a.csv") == folder.bytes("b.csv"), "{line}");
         if fast {
-            assert!(fs::read(file("a.svg")).unwrap() == fs::read(file("b.svg")).unwrap(), "{line}");
-            done(folder.path(), &format!("plot {store} c.svg --force"));
-            assert!(fs::read(file("a.svg")).unwrap() == fs::read(file("c.svg")).unwrap(), "{line}");
+            assert!(folder.bytes("a.svg") == folder.bytes("b.svg"), "{line}");
+            folder.printed(&format!("plot {store} c.svg --force"));
+            assert!(folder.bytes("a.svg") == folder.bytes("c.svg"), "{line}");
         }
-        done(folder.path(), &format!("export {store} --csv c.csv --force"));
-        let table = fs::read_to_string(file("c.csv")).unwrap();
-        let columns = table.lines().next().unwrap().split(',').count();
-        assert!(table.lines().all(|row| row.split(',').count() == columns), "{line}");
+        folder.printed(&format!("export {store} --csv c.csv --force"));
+        let table = folder.read("c.csv");
+        let rows = rows(&table);
+        assert!(rows.iter().all(|row| row.len() == rows[0].len()), "{line}");
     }
-    plan(
-        folder.path(),
+    folder.write(
+        "study.toml",
         r#"{"version":1,"system":{"inverse_beta":1.11,"restitution":0.5},
             "task":{"lyapunov":{"impacts":1000,"axes":[{"vary":"gap","over":"2:3:3"}]}}}"#,
     );
-    done(folder.path(), "run study.toml --store l.zarr --csv l.csv --plot l.svg");
-    let table = fs::read_to_string(folder.path().join("l.csv")).unwrap();
+    folder.printed("run study.toml --store l.zarr --csv l.csv --plot l.svg");
+    let table = folder.read("l.csv");
     assert!(table.starts_with("gap,direction,exponent,exponent_error,impacts_per_period"), "{table}");
     assert_eq!(table.lines().count(), 7);
-    done(folder.path(), "attractors --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --starts 100 --store a.zarr");
-    done(folder.path(), "export a.zarr --csv a.csv --force");
-    let table = fs::read_to_string(folder.path().join("a.csv")).unwrap();
+    folder.printed("attractors --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --starts 100 --store a.zarr");
+    folder.printed("export a.zarr --csv a.csv --force");
+    let table = folder.read("a.csv");
     assert!(table.starts_with("start,label,cycle,x,v,phase\n1,") && table.lines().count() == 101, "{table}");
-    let (code, refusal) = said(folder.path(), "plot a.zarr a.png");
-    assert!(code == Some(2) && refusal.contains("no figure"), "{refusal}");
+    folder.refuse([("plot a.zarr a.png", "no figure")]);
 }
 
 #[test]
 fn refusals_are_one_sentence_and_lose_nothing() {
-    let folder = tempfile::tempdir().unwrap();
-    let at = folder.path();
-    plan(at, &PLAN.replace(":28\"", ":8\""));
-    done(at, "run study.toml --store s.zarr");
-    let want = files(&at.join("s.zarr"));
-    fs::create_dir(at.join("thesis")).unwrap();
-    fs::write(at.join("thesis/text.tex"), "years").unwrap();
+    let folder = study(&smaller(8));
+    folder.printed("run study.toml --store s.zarr");
+    let want = folder.files("s.zarr");
+    fs::create_dir(folder.at("thesis")).unwrap();
+    folder.write("thesis/text.tex", "years");
+    let settle = r#"{"version":1,"system":{"beta":1,"gap":1,"restitution":0.5},"task":{"settle":{"start":{}}}}"#;
     for (name, text) in [
         ("misspelt.toml", PLAN.replace("starts", "start")),
         ("later.toml", PLAN.replace("version = 1", "version = 2")),
         ("beyond.toml", PLAN.replace("restitution = 0.5", "restitution = 1.5")),
         ("nothing.toml", String::new()),
         ("other.toml", PLAN.to_owned()),
-        (
-            "settle.json",
-            r#"{"version":1,"system":{"beta":1,"gap":1,"restitution":0.5},"task":{"settle":{"start":{}}}}"#.into(),
-        ),
+        ("settle.json", settle.to_owned()),
     ] {
-        fs::write(at.join(name), text).unwrap();
+        folder.write(name, text);
     }
     for (line, word) in [
         ("run none.toml", "cannot be read"),
@@ -461,14 +428,21 @@ fn refusals_are_one_sentence_and_lose_nothing() {
         ("slurm study.toml --time soon", "as Slurm writes it"),
         ("map --beta 1 --gap 1 --restitution 0.5 --starts 2", "nothing varies"),
     ] {
-        let (code, complaint) = said(at, line);
+        let (code, complaint) = folder.said(line);
         assert!(matches!(code, Some(1 | 2)), "{line}: {code:?}");
         assert!(complaint.contains(word) && complaint.len() < 900, "{line}: {complaint}");
         assert!(!complaint.contains("panicked") && !complaint.contains("defect"), "{line}: {complaint}");
     }
-    assert!(files(&at.join("s.zarr")) == want);
-    assert_eq!(fs::read(at.join("thesis/text.tex")).unwrap(), b"years");
-    assert!(!at.join("study.zarr").exists());
+    assert!(folder.files("s.zarr") == want);
+    assert_eq!(folder.read("thesis/text.tex"), "years");
+    assert!(!folder.at("study.zarr").exists());
+}
+
+/// The script `job.sh` of a task of an array, without a cluster.
+fn job(folder: &Folder, task: &str) -> Command {
+    let mut job = Command::new("bash");
+    job.arg("job.sh").current_dir(folder).env("SLURM_ARRAY_TASK_ID", task).env("SLURM_CPUS_PER_TASK", "1");
+    job
 }
 
 /// The script of a job that puts itself into the queue again until its part is complete; here `scontrol` starts it again.
@@ -476,25 +450,10 @@ fn refusals_are_one_sentence_and_lose_nothing() {
 #[cfg(unix)]
 fn a_job_that_is_put_into_the_queue_again() {
     use std::os::unix::fs::PermissionsExt;
-    let folder = tempfile::tempdir().unwrap();
-    plan(folder.path(), &PLAN.replace(":28\"", ":12\""));
-    let flags = [
-        "--memory",
-        "2G",
-        "--account",
-        "vi-17",
-        "--throttle",
-        "4",
-        "--setup",
-        "export SETUP=\"a b\"",
-        "--setup",
-        "echo $SETUP",
-    ];
-    let output = vibro("slurm study.toml --jobs 9 --cpus 2 --time 1-00:00:00 --requeue --partition long")
-        .args(flags)
-        .current_dir(folder.path())
-        .output()
-        .unwrap();
+    let folder = study(&smaller(12));
+    let line = "slurm study.toml --jobs 9 --cpus 2 --time 1-00:00:00 --requeue --partition long --memory 2G --account vi-17 --throttle 4";
+    let setup = ["--setup", "export SETUP=\"a b\"", "--setup", "echo $SETUP"];
+    let output = vibro(line).args(setup).current_dir(&folder).output().unwrap();
     let script = String::from_utf8(output.stdout).unwrap();
     for line in [
         "#SBATCH --array=1-9%4",
@@ -511,64 +470,54 @@ fn a_job_that_is_put_into_the_queue_again() {
     // a day less half an hour
     assert!(script.contains("--budget 84600s"), "{script}");
     let script = script.replace("--budget 84600s", "--budget 0.000001s").replace("ID/9", "ID/1");
-    fs::write(folder.path().join("job.sh"), script).unwrap();
-    let program = folder.path().join("scontrol");
-    fs::write(&program, "#!/bin/sh\necho \"$@\" >> queue\nexec bash job.sh\n").unwrap();
-    fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
-    let path = format!("{}:{}", folder.path().display(), std::env::var("PATH").unwrap());
-    let job = Command::new("bash")
-        .arg("job.sh")
-        .envs([
-            ("SLURM_ARRAY_JOB_ID", "71"),
-            ("SLURM_ARRAY_TASK_ID", "1"),
-            ("SLURM_CPUS_PER_TASK", "1"),
-            ("PATH", &path),
-        ])
-        .current_dir(folder.path())
-        .output()
-        .unwrap();
+    folder.write("job.sh", script);
+    folder.write("scontrol", "#!/bin/sh\necho \"$@\" >> queue\nexec bash job.sh\n");
+    fs::set_permissions(folder.at("scontrol"), fs::Permissions::from_mode(0o755)).unwrap();
+    let path = format!("{}:{}", folder.at("").display(), std::env::var("PATH").unwrap());
+    let job = job(&folder, "1").env("SLURM_ARRAY_JOB_ID", "71").env("PATH", path).output().unwrap();
     assert!(job.status.success(), "{}", String::from_utf8_lossy(&job.stderr));
     assert!(String::from_utf8_lossy(&job.stdout).starts_with("a b\n"));
-    assert_eq!(fs::read_to_string(folder.path().join("queue")).unwrap(), "requeue 71_1\n".repeat(8));
-    assert_eq!(json(&format!("status {}", folder.path().join("study.zarr").display()))["complete"], true);
-    for (flag, word) in [("--memory 8g", "hint: 8G"), ("--account a;b", "letters, digits"), ("--throttle 0", "1")] {
-        let (code, complaint) = said(folder.path(), &format!("slurm study.toml {flag}"));
-        assert!(code == Some(2) && complaint.contains(word), "{flag}: {complaint}");
-    }
+    assert_eq!(folder.read("queue"), "requeue 71_1\n".repeat(8));
+    assert_eq!(folder.json("status study.zarr")["complete"], true);
+    let flags = [("--memory 8g", "hint: 8G"), ("--account a;b", "letters, digits"), ("--throttle 0", "1")];
+    folder.refuse(flags.map(|(flag, word)| (format!("slurm study.toml {flag}"), word)));
+}
+
+/// Whether a disk of memory could be mounted, or mounted anew.
+#[cfg(target_os = "linux")]
+fn mount(disk: &Path, options: &str) -> bool {
+    let ran = Command::new("mount").args(["-t", "tmpfs", "-o", options, "tmpfs"]).arg(disk).status();
+    ran.is_ok_and(|status| status.success())
 }
 
 /// A complete store is not written again, whether its folder is writable or not.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_complete_study_where_nothing_can_be_written() {
-    let folder = tempfile::tempdir().unwrap();
-    plan(folder.path(), &PLAN.replace(":28\"", ":8\""));
-    let disk = folder.path().join("disk");
+    let folder = study(&smaller(8));
+    let disk = folder.at("disk");
     fs::create_dir(&disk).unwrap();
-    let mount = |options: &str| Command::new("mount").args(["-t", "tmpfs", "-o", options, "tmpfs"]).arg(&disk).status();
-    let mounted = mount("size=8m").is_ok_and(|status| status.success());
-    let ran = said(folder.path(), "run study.toml --store disk/s.zarr");
+    let mount = |options: &str| mount(&disk, options);
+    let mounted = mount("size=8m");
+    let ran = folder.said("run study.toml --store disk/s.zarr");
     // the modification times of folders change when a file is created in them
     let written = || {
         let times = |path: &Path| fs::metadata(path).unwrap().modified().unwrap();
         let folders = ["", "label", "status", "share/c/0"].map(|name| times(&disk.join("s.zarr").join(name)));
-        (files(&disk.join("s.zarr")), folders)
+        (folder.files("disk/s.zarr"), folders)
     };
     let before = written();
-    let locked = mounted && mount("remount,ro").is_ok_and(|status| status.success());
-    let said =
-        ["run study.toml --store disk/s.zarr", "resume disk/s.zarr", "run study.toml --store disk/s.zarr --csv a.csv"]
-            .map(|line| said(folder.path(), line));
+    let locked = mounted && mount("remount,ro");
+    let run = "run study.toml --store disk/s.zarr";
+    let said = [run, "resume disk/s.zarr", &format!("{run} --csv a.csv")].map(|line| folder.said(line));
     let after = written();
     if mounted {
         Command::new("umount").arg(&disk).status().unwrap();
     }
     assert_eq!(ran.0, Some(0), "{}", ran.1);
     for (code, note) in said {
-        assert!(
-            code == Some(0) && note.contains("disk/s.zarr: 0 of 4 tiles computed, 4 found there; complete"),
-            "{note}"
-        );
+        assert_eq!(code, Some(0), "{note}");
+        has(&note, &["disk/s.zarr: 0 of 4 tiles computed, 4 found there; complete"]);
     }
     assert!(before == after);
     if !locked {
@@ -586,57 +535,40 @@ fn a_full_disk() {
 
 #[cfg(target_os = "linux")]
 #[allow(clippy::print_stdout, reason = "a test says that it is skipped")]
-fn fills_a_disk(text: &str) {
-    let folder = tempfile::tempdir().unwrap();
-    let disk = folder.path().join("disk");
+fn fills_a_disk(plan: &str) {
+    let folder = study(plan);
+    let disk = folder.at("disk");
     fs::create_dir(&disk).unwrap();
-    let mount = |options: &str| Command::new("mount").args(["-t", "tmpfs", "-o", options, "tmpfs"]).arg(&disk).status();
-    if !mount("size=96k").is_ok_and(|status| status.success()) {
+    let mount = |options: &str| mount(&disk, options);
+    if !mount("size=96k") {
         println!("skipped: this user may not mount a small disk");
         return;
     }
-    plan(folder.path(), text);
-    let (code, complaint) = said(folder.path(), "run study.toml --store disk/s.zarr");
-    let remounted = mount("remount,size=8m").is_ok_and(|status| status.success());
-    let outcome = if remounted { Some(said(folder.path(), "resume disk/s.zarr")) } else { None };
-    let read_only = mount("remount,ro").is_ok_and(|status| status.success());
-    let refused = read_only.then(|| said(folder.path(), "run study.toml --store disk/other.zarr"));
-    let stored = files(&disk.join("s.zarr"));
+    let (code, complaint) = folder.said("run study.toml --store disk/s.zarr");
+    let outcome = mount("remount,size=8m").then(|| folder.said("resume disk/s.zarr"));
+    let refused = mount("remount,ro").then(|| folder.said("run study.toml --store disk/other.zarr"));
+    let stored = folder.files("disk/s.zarr");
     Command::new("umount").arg(&disk).status().unwrap();
     assert!(code == Some(1) && complaint.contains("No space left on device"), "{code:?} {complaint}");
     assert!(complaint.contains("hint: the tiles that are finished are kept"), "{complaint}");
     let (code, note) = outcome.unwrap();
     assert_eq!(code, Some(0), "{note}");
-    done(folder.path(), "run study.toml --store whole.zarr");
-    assert!(stored == files(&folder.path().join("whole.zarr")));
+    folder.printed("run study.toml --store whole.zarr");
+    assert!(stored == folder.files("whole.zarr"));
     if let Some((code, complaint)) = refused {
         assert!(code == Some(1) && complaint.contains("Read-only file system"), "{code:?} {complaint}");
     }
 }
 
 #[test]
-fn the_script_for_a_cluster_and_the_schema() {
-    let folder = tempfile::tempdir().unwrap();
-    plan(folder.path(), &PLAN.replace(":28\"", ":8\""));
-    let output =
-        vibro("slurm study.toml --jobs 3 --cpus 1 --partition debug").current_dir(folder.path()).output().unwrap();
-    let script = String::from_utf8(output.stdout).unwrap();
-    assert!(script.contains("#SBATCH --array=1-3\n") && script.contains("#SBATCH --partition=debug\n"), "{script}");
+fn the_script_for_a_cluster() {
+    let folder = study(&smaller(8));
+    let script = folder.printed("slurm study.toml --jobs 3 --cpus 1 --partition debug");
+    has(&script, &["#SBATCH --array=1-3\n", "#SBATCH --partition=debug\n"]);
     // the script without a cluster: its jobs run one after another
-    fs::write(folder.path().join("job.sh"), &script).unwrap();
+    folder.write("job.sh", &script);
     for task in ["2", "1", "3"] {
-        let job = Command::new("bash")
-            .arg("job.sh")
-            .env("SLURM_ARRAY_TASK_ID", task)
-            .env("SLURM_CPUS_PER_TASK", "1")
-            .current_dir(folder.path())
-            .status();
-        assert!(job.unwrap().success());
+        assert!(job(&folder, task).status().unwrap().success());
     }
-    assert_eq!(json(&format!("status {}", folder.path().join("study.zarr").display()))["complete"], true);
-
-    let output = vibro("schema").output().unwrap();
-    let schema: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(schema["properties"]["version"]["maximum"], 1);
-    assert!(schema.to_string().contains("\"inverse_beta\"") && schema["additionalProperties"] == false);
+    assert_eq!(folder.json("status study.zarr")["complete"], true);
 }

@@ -1,7 +1,7 @@
 //! One vocabulary for every system: the answers to a command have the same fields for an oscillator, for a body in SI units and for
 //! a machine of two coordinates, and are as `vibro schema COMMAND` says.
 
-use crate::{json, printed, refused};
+use crate::{Folder, has, json, list, printed, refused};
 use serde_json::Value;
 use std::collections::BTreeSet;
 
@@ -40,34 +40,8 @@ const COMMANDS: [(&str, [&str; 3]); 11] = [
 ];
 
 /// Fields that only some systems or motions have; each says so in the schema.
-const OF_SOME: [&str; 26] = [
-    "units",
-    "scales",
-    "harmonics",
-    "transient",
-    "box",
-    "sum",
-    "identity",
-    "grounds",
-    "measures",
-    "residual",
-    "touch",
-    "of",
-    "orbit",
-    "phase",
-    "impact",
-    "also",
-    "appears",
-    "turns",
-    "stop",
-    "stops",
-    "chatter",
-    "contacts",
-    "exact",
-    "horizon",
-    "why",
-    "lyapunov",
-];
+const OF_SOME: &str = "units scales harmonics transient box sum identity grounds measures residual touch of orbit phase impact also \
+                       appears turns stop stops chatter contacts exact horizon why lyapunov";
 
 /// Checks a value against a schema: the types, that nothing that is required is missing, and that nothing is there of which it
 /// does not know.
@@ -124,7 +98,7 @@ fn check(value: &Value, schema: &Value, root: &Value, path: &str) {
 fn fields(value: &Value, path: &str, found: &mut BTreeSet<String>) {
     match value {
         Value::Object(own) => {
-            for (name, value) in own.iter().filter(|(name, _)| !OF_SOME.contains(&name.as_str())) {
+            for (name, value) in own.iter().filter(|(name, _)| !OF_SOME.split(' ').any(|of| of == *name)) {
                 let path = format!("{path}.{name}");
                 if !["plan", "quantities", "counts", "system", "event"].contains(&name.as_str()) {
                     fields(value, &path, found);
@@ -147,25 +121,16 @@ fn every_answer_is_as_its_schema_says_and_the_same_for_every_system() {
             .zip(flags)
             .map(|(system, more)| {
                 // a response takes a range of a parameter
-                let system = match verb {
-                    "response" => {
-                        system.replace("--restitution 0.5", "--restitution 0.4:0.6:3").replace("--units si ", "")
-                    }
-                    _ => system.to_owned(),
-                };
+                let range = system.replace("--restitution 0.5", "--restitution 0.4:0.6:3").replace("--units si ", "");
+                let system = if verb == "response" { &*range } else { system };
                 // every command has a table and a figure too, for every system
-                let files = tempfile::tempdir().unwrap();
-                let at = |name: &str| files.path().join(name);
-                let (csv, plot) = (at("table.csv"), at("figure.svg"));
-                let answer =
-                    json(&format!("{command} {system} {more} --csv {} --plot {}", csv.display(), plot.display()));
-                let (table, drawn) = (std::fs::read_to_string(csv).unwrap(), std::fs::read_to_string(plot).unwrap());
+                let folder = Folder::new();
+                let answer = folder.json(&format!("{command} {system} {more} --csv a.csv --plot a.svg"));
+                let (table, drawn) = (folder.read("a.csv"), folder.read("a.svg"));
                 assert!(table.lines().count() > 1 && drawn.starts_with("<svg"), "{command} {system}");
                 check(&answer, &schema, &schema, verb);
-                assert!(
-                    answer["system"]["kind"].is_string() && answer["system"]["stops"].is_array(),
-                    "{command} {system}"
-                );
+                let of = &answer["system"];
+                assert!(of["kind"].is_string() && of["stops"].is_array(), "{command} {system}");
                 let mut found = BTreeSet::new();
                 fields(&answer, verb, &mut found);
                 found
@@ -199,7 +164,7 @@ fn further_answers_are_as_their_schemas_say() {
         check(&json(line), &schema, &schema, line);
     }
     let map = json("map --restitution 0.5 --beta 0.8:0.9:2 --gap 0.5:1:2 --starts 3");
-    let points = map["points"].as_array().unwrap();
+    let points = list(&map["points"]);
     assert!(points.len() == 4 && points[1]["beta"] == 0.9 && points[1]["gap"] == 0.5, "{map}");
     assert!(points.iter().all(|point| point["motions"][0]["label"].is_string()), "{map}");
 }
@@ -214,17 +179,13 @@ fn tables_have_the_names_of_the_json() {
         "branch,gap,label,admissible,stable,stability,event,stop,fastest,multiplier_1_re,multiplier_1_im,multiplier_2_re,\
          multiplier_2_im,phases,speeds,stops"
     );
-    assert!(
-        head(&format!("{branch} frequency --to 1.19 {MACHINE}"))
-            .starts_with("branch,frequency,label,admissible,stable,stability,event,stop,fastest,multiplier_1_re,")
-    );
-    let orbit = head(&format!("orbit --label 2/1 {OSCILLATOR}"));
-    assert!(
-        orbit.starts_with("orbit,label,admissible,stable,stability,fastest,multiplier_1_re,")
-            && orbit.ends_with("phases,speeds,stops")
-    );
-    let of_machine = head(&format!("orbit --label 1/1 {MACHINE}"));
-    assert!(of_machine.starts_with("orbit,label,admissible,stable,stability,fastest,multiplier_1_re,"), "{of_machine}");
+    let begin = "branch,frequency,label,admissible,stable,stability,event,stop,fastest,multiplier_1_re,";
+    assert!(head(&format!("{branch} frequency --to 1.19 {MACHINE}")).starts_with(begin));
+    for orbit in [format!("orbit --label 2/1 {OSCILLATOR}"), format!("orbit --label 1/1 {MACHINE}")] {
+        let head = head(&orbit);
+        assert!(head.starts_with("orbit,label,admissible,stable,stability,fastest,multiplier_1_re,"), "{head}");
+        assert!(head.ends_with("phases,speeds,stops"), "{head}");
+    }
     let diagram = |vary: &str, system: &str| head(&format!("diagram --vary {vary} {system}"));
     assert_eq!(diagram("damping --over 0.01:0.02:2", OSCILLATOR), "damping,sweep,kind,stop,phase,speed");
     assert_eq!(diagram("frequency --over 1.1:1.2:2", MACHINE), "frequency,sweep,kind,stop,phase,speed");
@@ -232,6 +193,5 @@ fn tables_have_the_names_of_the_json() {
 
 #[test]
 fn a_command_without_an_answer_has_no_schema() {
-    let said = refused("schema bench");
-    assert!(said.contains("`bench` has no schema") && said.contains("settle"), "{said}");
+    has(&refused("schema bench"), &["`bench` has no schema", "settle"]);
 }

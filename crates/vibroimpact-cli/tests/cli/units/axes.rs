@@ -1,27 +1,22 @@
 //! Axes over numbers of a body.
 
-use super::{MACHINE, Machine, near, unit};
-use crate::{json, vibro};
+use super::{MACHINE, Machine, both, near, unit};
+use crate::{Folder, json, list, printed, refuse, rows};
 use serde_json::Value;
 
 /// A map in physical units, in memory and in a store: each number is the nondimensional one times its unit.
 #[test]
 fn a_map_in_hertz() {
-    let folder = tempfile::tempdir().unwrap();
-    let rows = |line: &str| {
-        let output = vibro(line).current_dir(&folder).output().unwrap();
-        assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-        let text = String::from_utf8(output.stdout).unwrap();
-        text.lines().map(|row| row.split(',').map(str::to_owned).collect()).collect::<Vec<Vec<_>>>()
-    };
+    let folder = Folder::new();
     // omega_n = 8 rad/s
     let hertz = 8.0 / std::f64::consts::TAU;
     let tail = "--restitution 0.5 --starts 4 --fields impact-speed-max,power,displacement-rms,impulse-max";
     let machine = "--mass-kg 1 --stiffness-n-per-m 64 --force-n 32 --damping-ratio 0.05";
     let si = format!("map {machine} --frequency-hz 0.8:1.6:3 --gap-m 0.25:0.75:3 {tail}");
     let (low, high) = (0.8 / hertz, 1.6 / hertz);
-    let plain = rows(&format!("map --beta {low:?}:{high:?}:3 --gap 0.5:1.5:3 --damping 0.05 {tail} --csv -"));
-    let found = rows(&format!("{si} --csv -"));
+    let plain = printed(&format!("map --beta {low:?}:{high:?}:3 --gap 0.5:1.5:3 --damping 0.05 {tail} --csv -"));
+    let table = printed(&format!("{si} --csv -"));
+    let (plain, found) = (rows(&plain), rows(&table));
     let head = "frequency_hz,gap_m,label,share,impact_speed_max_m_per_s,power_w,displacement_rms_m,impulse_max_n_s";
     assert_eq!(found[0].join(","), head);
     assert_eq!(found[1][0], "0.8");
@@ -36,9 +31,8 @@ fn a_map_in_hertz() {
             }
         }
     }
-    let filled = vibro(&format!("{si} --store map.zarr --quiet")).current_dir(&folder).output().unwrap();
-    assert!(filled.status.success(), "{}", String::from_utf8_lossy(&filled.stderr));
-    assert_eq!(rows(&format!("{si} --store map.zarr --csv -")), found);
+    folder.printed(&format!("{si} --store map.zarr --quiet"));
+    assert_eq!(folder.printed(&format!("{si} --store map.zarr --csv -")), table);
 }
 
 /// A sweep in Hz moves the frequency ratio alone, in every command that varies a parameter.
@@ -46,11 +40,9 @@ fn a_map_in_hertz() {
 fn frequencies_in_hertz() {
     let hertz = 8.0 / std::f64::consts::TAU;
     let same = |si: &str, plain: &str, head: &str| {
-        let text = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
-        let (a, b) = (text(&format!("{si} --csv -")), text(&format!("{plain} --csv -")));
+        let [a, b] = [si, plain].map(|line| printed(&format!("{line} --csv -")));
         assert!(a.starts_with(head), "{si}: {a}");
-        assert_eq!(a.lines().count(), b.lines().count(), "{si}");
-        assert!(a.lines().count() > 3, "{si}");
+        assert!(a.lines().count() == b.lines().count() && a.lines().count() > 3, "{si}");
     };
     let machine = "--mass-kg 1 --stiffness-n-per-m 64 --force-n 32 --gap-m 0.75 --restitution 0.5";
     let (low, high) = (0.8 / hertz, 1.2 / hertz);
@@ -70,9 +62,7 @@ fn frequencies_in_hertz() {
         &format!("region --restitution 0.5 --label 1/1 --beta {:?}:{high:?} --gap 1:2.5 --grid 3", 1.1 / hertz),
         "region,polygon,hole,sheet,frequency_hz,gap_m,bound",
     );
-    let refused = vibro("diagram --gap 1 --restitution 0.5 --vary frequency-hz --over 1:2:3").output().unwrap();
-    let complaint = String::from_utf8_lossy(&refused.stderr).into_owned();
-    assert!(refused.status.code() == Some(2) && complaint.contains("physical units"), "{complaint}");
+    refuse([("diagram --gap 1 --restitution 0.5 --vary frequency-hz --over 1:2:3", "physical units")]);
 }
 
 /// The object of a command over the gaps of a machine, and over those of the oscillator; `extra` names what is asked.
@@ -115,8 +105,8 @@ fn random_machines_over_their_gap() {
 
 /// The points of the sweeps of a response.
 fn points(response: &Value) -> Vec<Value> {
-    let sweeps = response["sweeps"].as_array().unwrap();
-    let points: Vec<Value> = sweeps.iter().flat_map(|sweep| sweep["points"].as_array().unwrap().clone()).collect();
+    let points = list(&response["sweeps"]).iter().flat_map(|sweep| list(&sweep["points"]));
+    let points: Vec<Value> = points.cloned().collect();
     assert_eq!(points.len(), 4);
     points
 }
@@ -126,15 +116,10 @@ fn points(response: &Value) -> Vec<Value> {
 fn random_machines_have_the_margins_of_the_oscillator() {
     let mut events = 0;
     for machine in Machine::random().filter(|machine| machine.damping_ratio > 0.0) {
-        let plain = format!("margins {} --vary gap --lines 2 --json", machine.by_hand(&[]));
-        let si = format!("margins {} --vary gap-m --lines 2 --json", machine.in_si(&[]));
-        let found = [plain, si].map(|line| vibro(&line).output().unwrap());
-        let codes = found.each_ref().map(|output| output.status.code());
-        assert_eq!(codes[0], codes[1], "{machine:?}");
-        if codes[0] != Some(0) {
-            continue; // the motion is chaotic or has no branch
-        }
-        let [plain, si] = found.map(|output| serde_json::from_slice::<Value>(&output.stdout).unwrap());
+        let plain = format!("margins {} --vary gap --lines 2", machine.by_hand(&[]));
+        let si = format!("margins {} --vary gap-m --lines 2", machine.in_si(&[]));
+        // the motion may be chaotic or have no branch
+        let Some([plain, si]) = both(&plain, &si) else { continue };
         for way in ["down", "up"] {
             let [plain, si] = [&plain, &si].map(|found| &found["parameters"][0][way]);
             assert_eq!(plain["event"]["kind"], si["event"]["kind"], "{machine:?}");

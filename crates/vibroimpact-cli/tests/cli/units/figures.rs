@@ -1,7 +1,7 @@
 //! Figures in metres and seconds: their marks are where those of the nondimensional figures are.
 
 use super::{COMMANDS, Command, Machine};
-use crate::vibro;
+use crate::Folder;
 
 /// A figure between its axes: curves and marks in parts of the frame, and images as they are.
 #[derive(Debug, Default)]
@@ -62,18 +62,13 @@ fn distance((x, y): (f64, f64), line: &[(f64, f64)]) -> f64 {
 /// Random machines: dots, curves and images stand at the same places between the axes as in the nondimensional figure.
 #[test]
 fn random_machines_have_the_figures_of_the_oscillator() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let mut compared = 0;
     let drawn = ["simulate", "settle", "basin"];
     for machine in Machine::random().take(6) {
         for Command { name, flags, without, .. } in COMMANDS.iter().filter(|command| drawn.contains(&command.name)) {
             let (si, plain) = machine.lines(name, flags, without);
-            let figure = |line: &str, file: &str| {
-                let output = vibro(&format!("{line} --plot {file} --force")).current_dir(&folder).output().unwrap();
-                assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-                marks(&std::fs::read_to_string(folder.path().join(file)).unwrap())
-            };
-            let (plain, si) = (figure(&plain, "plain.svg"), figure(&si, "si.svg"));
+            let [plain, si] = [plain, si].map(|line| marks(&folder.drawn(&line, "a.svg")));
             assert!(plain.images == si.images, "{name}: {machine:?}");
             // curves have fewer points where they are nearly straight, and which ones depends on the size of the frame
             for (one, other) in [(&plain, &si), (&si, &plain)] {
