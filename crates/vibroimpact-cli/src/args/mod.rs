@@ -22,6 +22,7 @@ mod stretches;
 mod system;
 mod unit_text;
 mod vary;
+mod words;
 
 pub(crate) use axes::AxesArgs;
 pub(crate) use body::BodyArgs;
@@ -44,3 +45,4 @@ pub(crate) use store::{Budget, BudgetArgs, Filling, StoreArgs, Tiles};
 pub(crate) use system::{Convention, NumbersArgs, SystemArgs, ranges};
 pub(crate) use unit_text::UnitKind;
 pub(crate) use vary::of_oscillator;
+pub(crate) use words::{Words, word};

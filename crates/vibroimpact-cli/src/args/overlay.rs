@@ -1,8 +1,9 @@
 //! OVERLAY: what lies over the figure of a map of two parameters: layers, a marked point, a line.
 
 use super::numbers::shown;
+use super::{Words, word};
 use crate::failure::Failure;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use core::str::FromStr;
 use vibroimpact_report::figure::overlay::{Layer, Overlay};
 use vibroimpact_study::typed::decimal;
@@ -12,8 +13,8 @@ use vibroimpact_study::typed::decimal;
 #[command(next_help_heading = "Figure")]
 pub(crate) struct OverlayArgs {
     /// Layers of a map of two parameters, separated by commas, or none [default: stripes; with --colour: none]
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "LAYER,...")]
-    layers: Option<Vec<LayerName>>,
+    #[arg(long, value_parser = word(&LAYERS), value_delimiter = ',', value_name = "LAYER,...")]
+    layers: Option<Vec<Option<Layer>>>,
 
     /// Mark this point of a map of two parameters, in the units of the axes
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
@@ -24,27 +25,18 @@ pub(crate) struct OverlayArgs {
     line: Option<Segment>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum LayerName {
-    /// Boundaries of the regions in which 1/1, 2/1, 3/1, 4/1, 1/2, 1/3, 2/2, 3/2 and 2/4 are stable
-    Regions,
-    /// The amplitude of the motion without stops; the gap is on an axis
-    Amplitude,
-    /// The points of the 1971 paper
-    Paper,
-    /// Stripes where motions coexist
-    Stripes,
-    /// Lines where the motion changes
-    Boundaries,
-    /// No layer
-    None,
-}
-
-impl LayerName {
-    fn layer(self) -> Option<Layer> {
-        Layer::from_name(self.to_possible_value()?.get_name())
-    }
-}
+const LAYERS: Words<Option<Layer>, 6> = [
+    (
+        "regions",
+        Some(Layer::Regions),
+        "Boundaries of the regions in which 1/1, 2/1, 3/1, 4/1, 1/2, 1/3, 2/2, 3/2 and 2/4 are stable",
+    ),
+    ("amplitude", Some(Layer::Amplitude), "The amplitude of the motion without stops; the gap is on an axis"),
+    ("paper", Some(Layer::Paper), "The points of the 1971 paper"),
+    ("stripes", Some(Layer::Stripes), "Stripes where motions coexist"),
+    ("boundaries", Some(Layer::Boundaries), "Lines where the motion changes"),
+    ("none", None, "No layer"),
+];
 
 impl OverlayArgs {
     /// Whether any option is given.
@@ -60,11 +52,11 @@ impl OverlayArgs {
         let layers = match &self.layers {
             None if coloured => Vec::new(),
             None => Overlay::default().layers,
-            Some(names) if names.len() > 1 && names.contains(&LayerName::None) => {
+            Some(names) if names.len() > 1 && names.contains(&None) => {
                 return Err(Failure::bad("--layers none stands alone\nhint: leave out none, or the others"));
             }
             Some(names) => {
-                let mut layers: Vec<Layer> = names.iter().filter_map(|name| name.layer()).collect();
+                let mut layers: Vec<Layer> = names.iter().copied().flatten().collect();
                 layers.sort_unstable();
                 layers.dedup();
                 layers
@@ -128,11 +120,7 @@ mod tests {
 
     #[test]
     fn every_layer_has_its_name() {
-        let names = LayerName::value_variants().iter().filter_map(|name| {
-            Some((name.layer()?.name(), name.to_possible_value().map(|value| value.get_name().to_owned())?))
-        });
-        let names: Vec<_> = names.collect();
-        assert_eq!(names.len(), Layer::ALL.len());
-        assert!(names.iter().all(|(layer, name)| layer == name), "{names:?}");
+        let named = LAYERS.iter().filter_map(|(name, layer, _)| Some((*name, (*layer)?)));
+        assert!(named.eq(Layer::ALL.map(|layer| (layer.name(), layer))));
     }
 }

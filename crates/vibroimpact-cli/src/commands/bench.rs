@@ -1,11 +1,11 @@
 //! `vibro bench`: the rates of this machine.
 
-use crate::args::number;
+use crate::args::{Words, number, word};
 use crate::failure::Failure;
 use crate::measure::{Rates, Workload, measure};
 use crate::session::Session;
 use crate::signal;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde::Serialize;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -30,41 +30,22 @@ pub(crate) struct Bench {
     seconds: f64,
 
     /// Lanes to use instead of the fastest this machine has; results never depend on it
-    #[arg(long, value_name = "WIDTH", help_heading = "Measurement")]
-    width: Option<Lanes>,
+    #[arg(long, value_parser = word(&WIDTHS), value_name = "WIDTH", help_heading = "Measurement")]
+    width: Option<Width>,
 
     /// Print one JSON object instead of text
     #[arg(long, help_heading = "Output")]
     json: bool,
 }
 
-/// The lanes by name.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Lanes {
-    /// Four, in the vectors every machine of this kind has
-    Portable,
-    /// Sixteen, with AVX2
-    Avx2,
-    /// Sixteen, with AVX-512
-    Avx512,
-}
-
-impl Lanes {
-    const fn width(self) -> Width {
-        match self {
-            Self::Portable => Width::Portable,
-            Self::Avx2 => Width::Avx2,
-            Self::Avx512 => Width::Avx512,
-        }
-    }
-}
+const WIDTHS: Words<Width, 3> = [
+    ("portable", Width::Portable, "Four, in the vectors every machine of this kind has"),
+    ("avx2", Width::Avx2, "Sixteen, with AVX2"),
+    ("avx512", Width::Avx512, "Sixteen, with AVX-512"),
+];
 
 fn name(width: Width) -> &'static str {
-    match width {
-        Width::Portable => "portable",
-        Width::Avx2 => "avx2",
-        Width::Avx512 => "avx512",
-    }
+    WIDTHS.iter().find(|(_, known, _)| *known == width).map_or("", |(name, ..)| name)
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
@@ -103,7 +84,7 @@ struct Starts {
 }
 
 pub(super) fn run(args: &Bench, session: &Session) -> Result<(), Failure> {
-    let width = args.width.map_or_else(Width::best, Lanes::width);
+    let width = args.width.unwrap_or_else(Width::best);
     if !width.available() {
         return Err(Failure::bad(format!("this machine has no {}\nhint: leave --width away", name(width))));
     }

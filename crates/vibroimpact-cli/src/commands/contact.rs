@@ -1,11 +1,11 @@
 //! `vibro contact`: the contact of a mass with a spring and a damper.
 
-use crate::args::{OutputArgs, UnitKind};
+use crate::args::{OutputArgs, UnitKind, Words, word};
 use crate::commands::outputs::Outputs;
 use crate::failure::Failure;
 use crate::report::words::table;
 use crate::session::Session;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use vibroimpact_report::number::short;
 use vibroimpact_report::{ContactAnswer, ContactObject, ContactQuestion, Opens};
 
@@ -58,21 +58,17 @@ pub(crate) struct Contact {
     speed_m_per_s: f64,
 
     /// When the contact opens [default: both]
-    #[arg(long, value_name = "WHEN", help_heading = "Contact")]
-    opening: Option<When>,
+    #[arg(long, value_parser = word(&OPENINGS), value_name = "WHEN", help_heading = "Contact")]
+    opening: Option<Opens>,
 
     #[command(flatten)]
     output: OutputArgs,
 }
 
-/// When a contact opens.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum When {
-    /// When its force falls to zero
-    Force,
-    /// Where its spring is relaxed again
-    Position,
-}
+const OPENINGS: Words<Opens, 2> = [
+    ("force", Opens::Force, "When its force falls to zero"),
+    ("position", Opens::Position, "Where its spring is relaxed again"),
+];
 
 /// A number with or without a unit.
 fn in_unit(kind: UnitKind) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
@@ -89,7 +85,7 @@ pub(super) fn run(args: &Contact, session: &Session) -> Result<(), Failure> {
         damping: args.damping_ns_per_m,
         damping_ratio: args.damping_ratio,
         speed: args.speed_m_per_s,
-        opening: args.opening.map(|when| if matches!(when, When::Force) { Opens::Force } else { Opens::Position }),
+        opening: args.opening,
     };
     let answer = question.answer()?;
     let outputs = Outputs::reserve(args.output.files(), session)?;

@@ -1,10 +1,12 @@
 //! `vibro curve`: a fold, flip or grazing impact of an orbit in a plane of two parameters.
 
-use crate::args::{MachineArgs, OutputArgs, StartOfMachineArgs, SystemArgs, Varied, VariedOver, of_oscillator, whole};
+use crate::args::{
+    MachineArgs, OutputArgs, StartOfMachineArgs, SystemArgs, Varied, VariedOver, Words, of_oscillator, whole, word,
+};
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use vibroimpact_report::Asked;
 use vibroimpact_study::{CurvePlan, FollowedEvent, Parameter};
 
@@ -62,8 +64,8 @@ pub(crate) struct Curve {
     orbit: Option<u32>,
 
     /// What holds along the curve
-    #[arg(long, value_enum, value_name = "KIND", help_heading = "Curve")]
-    kind: Kind,
+    #[arg(long, value_parser = word(&KINDS), value_name = "KIND", help_heading = "Curve")]
+    kind: FollowedEvent,
 
     /// The parameter in which the orbit is followed to the event, and its range; of a machine the path of a number
     #[arg(long, value_name = "PARAMETER|PATH=A:B", help_heading = "Curve")]
@@ -85,41 +87,24 @@ pub(crate) struct Curve {
     output: OutputArgs,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Kind {
-    /// A multiplier is +1: two orbits meet
-    Fold,
-    /// A multiplier is -1: the period doubles
-    Flip,
-    /// An impact has speed zero: one appears, disappears, or the mass no longer reaches the stop
-    Grazing,
-    /// Of a machine: a pair of complex multipliers lies on the unit circle
-    Torus,
-    /// Of a machine: two events happen at the same time
-    Corner,
-    /// Of a machine: sticking on a stop begins or ends
-    Sticking,
-    /// Of a machine: holding of a friction joint begins or ends
-    Holding,
-}
-
-impl From<Kind> for FollowedEvent {
-    fn from(kind: Kind) -> Self {
-        match kind {
-            Kind::Fold => Self::Fold,
-            Kind::Flip => Self::Flip,
-            Kind::Grazing => Self::Grazing,
-            Kind::Torus => Self::Torus,
-            Kind::Corner => Self::Corner,
-            Kind::Sticking => Self::Sticking,
-            Kind::Holding => Self::Holding,
-        }
-    }
-}
+const KINDS: Words<FollowedEvent, 7> = [
+    ("fold", FollowedEvent::Fold, "A multiplier is +1: two orbits meet"),
+    ("flip", FollowedEvent::Flip, "A multiplier is -1: the period doubles"),
+    (
+        "grazing",
+        FollowedEvent::Grazing,
+        "An impact has speed zero: one appears, disappears, or the mass no longer reaches the stop",
+    ),
+    ("torus", FollowedEvent::Torus, "Of a machine: a pair of complex multipliers lies on the unit circle"),
+    ("corner", FollowedEvent::Corner, "Of a machine: two events happen at the same time"),
+    ("sticking", FollowedEvent::Sticking, "Of a machine: sticking on a stop begins or ends"),
+    ("holding", FollowedEvent::Holding, "Of a machine: holding of a friction joint begins or ends"),
+];
 
 impl Curve {
     /// The oscillator, and both parameters in which its curve is followed.
     fn oscillator(&self) -> Result<(Asked, [Parameter; 2]), Failure> {
+        use FollowedEvent as Kind;
         if let Kind::Torus | Kind::Corner | Kind::Sticking | Kind::Holding = self.kind {
             return Err(Failure::bad(
                 "torus, corner, sticking and holding are curves of machines\nhint: --machine NAME|FILE",
@@ -143,7 +128,7 @@ pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
     let [vary, and] = &varied;
     let task = CurvePlan {
         label: args.label.clone(),
-        kind: args.kind.into(),
+        kind: args.kind,
         vary: system.stretch(vary, args.vary.ends())?,
         and: system.stretch(and, args.and.ends())?,
         orbit: args.orbit,

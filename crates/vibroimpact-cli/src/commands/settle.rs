@@ -1,6 +1,6 @@
 //! `vibro settle`: the motion from one start after its transient.
 
-use crate::args::{OutputArgs, StartedArgs, number, whole};
+use crate::args::{OutputArgs, StartedArgs, Words, number, whole, word};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -55,25 +55,24 @@ pub(crate) struct Settle {
     limit: Option<u32>,
 
     /// What --plot draws and --csv writes of the steady motion
-    #[arg(long, value_enum, value_name = "VIEW", help_heading = "Output")]
-    show: Option<Views>,
+    #[arg(long, value_parser = word(&VIEWS), value_name = "VIEW", help_heading = "Output")]
+    show: Option<View>,
 
     #[command(flatten)]
     output: OutputArgs,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Views {
-    /// Position over time
-    Waveform,
-    /// Velocity over position
-    Phase,
-    /// Floquet multipliers in the complex plane; columns re, im
-    Multipliers,
-    /// Phase and speed of its impacts, and its states at phase 0; columns section, side, phase, x, v. Of a machine: `vibro
-    /// lyapunov --points N`
-    Sections,
-}
+const VIEWS: Words<View, 4> = [
+    ("waveform", View::Waveform, "Position over time"),
+    ("phase", View::Phase, "Velocity over position"),
+    ("multipliers", View::Multipliers, "Floquet multipliers in the complex plane; columns re, im"),
+    (
+        "sections",
+        View::Sections,
+        "Phase and speed of its impacts, and its states at phase 0; columns section, side, phase, x, v. Of a machine: `vibro lyapunov \
+         --points N`",
+    ),
+];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Rule {
@@ -106,9 +105,7 @@ impl Settle {
         if self.show.is_some() && !self.output.any_file() {
             return Err(Failure::bad("--show says what is drawn or written: it belongs to --plot and --csv"));
         }
-        let name = self.show.and_then(|show| show.to_possible_value());
-        let view = name.and_then(|name| View::ALL.into_iter().find(|view| view.name() == name.get_name()));
-        Ok(Shown { view, ..Shown::default() })
+        Ok(Shown { view: self.show, ..Shown::default() })
     }
 
     fn paper_rule(&self) -> Result<Option<PaperRule>, Failure> {

@@ -3,104 +3,88 @@
 use super::Body;
 use core::f64::consts::TAU;
 
-/// A number of a body, by name and in SI units.
-///
-/// ```
-/// use vibroimpact_study::{Body, BodyNumber};
-/// let body = Body {
-///     mass_kg: Some(2.0), stiffness_n_per_m: Some(800.0), damping_ratio: Some(0.02), force_n: Some(4.0),
-///     omega_rad_per_s: Some(25.0), gap_m: Some(0.010), restitution: Some(0.5), ..Body::default()
-/// };
-/// // twice the force halves the gap in units of F/k, and leaves all else
-/// let mut harder = body;
-/// harder.set(BodyNumber::Force, 8.0);
-/// let osc = harder.reduction()?.oscillator;
-/// assert_eq!((osc.gap(), osc.beta(), osc.damping()), (1.0, 1.25, 0.02));
-/// # Ok::<(), vibroimpact::SystemError>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum BodyNumber {
+/// The numbers from one list: where a body has each, its name, what it is, its unit, and its unit in the notation of UDUNITS.
+macro_rules! body_numbers {
+    ($count:literal; $($(#[$doc:meta])* $number:ident($field:ident, $($word:literal),*),)*) => {
+        /// A number of a body, by name and in SI units.
+        ///
+        /// ```
+        /// use vibroimpact_study::{Body, BodyNumber};
+        /// let body = Body {
+        ///     mass_kg: Some(2.0), stiffness_n_per_m: Some(800.0), damping_ratio: Some(0.02), force_n: Some(4.0),
+        ///     omega_rad_per_s: Some(25.0), gap_m: Some(0.010), restitution: Some(0.5), ..Body::default()
+        /// };
+        /// // twice the force halves the gap in units of F/k, and leaves all else
+        /// let mut harder = body;
+        /// harder.set(BodyNumber::Force, 8.0);
+        /// let osc = harder.reduction()?.oscillator;
+        /// assert_eq!((osc.gap(), osc.beta(), osc.damping()), (1.0, 1.25, 0.02));
+        /// # Ok::<(), vibroimpact::SystemError>(())
+        /// ```
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum BodyNumber {
+            $($(#[$doc])* $number,)*
+        }
+
+        impl BodyNumber {
+            /// All of them.
+            pub const ALL: [Self; $count] = [$(Self::$number),*];
+
+            /// Its name, what it is, its unit, and its unit in the notation of UDUNITS.
+            const fn words(self) -> [&'static str; 4] {
+                match self {
+                    $(Self::$number => [$($word),*],)*
+                }
+            }
+
+            /// Where a body has it; of both stops, where the first has it.
+            pub(super) const fn place(self, body: &mut Body) -> &mut Option<f64> {
+                match self {
+                    $(Self::$number => &mut body.$field,)*
+                }
+            }
+        }
+    };
+}
+
+body_numbers! { 17;
     /// Mass.
-    Mass,
+    Mass(mass_kg, "mass_kg", "mass", "kg", "kg"),
     /// Stiffness.
-    Stiffness,
+    Stiffness(stiffness_n_per_m, "stiffness_n_per_m", "stiffness", "N/m", "N m-1"),
     /// Damping coefficient.
-    DampingCoefficient,
+    DampingCoefficient(damping_ns_per_m, "damping_ns_per_m", "damping coefficient", "N s/m", "N s m-1"),
     /// Damping ratio.
-    DampingRatio,
+    DampingRatio(damping_ratio, "damping_ratio", "damping ratio", "", "1"),
     /// Amplitude of the force.
-    Force,
+    Force(force_n, "force_n", "force", "N", "N"),
     /// Frequency of the force.
-    Frequency,
+    Frequency(frequency_hz, "frequency_hz", "frequency", "Hz", "Hz"),
     /// Distance of the (first) stop.
-    Gap,
+    Gap(gap_m, "gap_m", "gap", "m", "m"),
     /// Distance of the second stop.
-    SecondGap,
+    SecondGap(second_gap_m, "second_gap_m", "second gap", "m", "m"),
     /// Distance of both stops: the stops are symmetric.
-    Gaps,
+    Gaps(gap_m, "gaps_m", "gap of both stops", "m", "m"),
     /// Restitution of both stops.
-    Restitutions,
+    Restitutions(restitution, "restitutions", "restitution of both stops", "", "1"),
     /// Amplitude of the displacement of the base.
-    BaseDisplacement,
+    BaseDisplacement(base_displacement_m, "base_displacement_m", "base displacement", "m", "m"),
     /// Amplitude of the velocity of the base.
-    BaseVelocity,
+    BaseVelocity(base_velocity_m_per_s, "base_velocity_m_per_s", "base velocity", "m/s", "m s-1"),
     /// Amplitude of the acceleration of the base.
-    BaseAcceleration,
+    BaseAcceleration(base_acceleration_m_per_s2, "base_acceleration_m_per_s2", "base acceleration", "m/s²", "m s-2"),
     /// Amplitude of the displacement of the stop.
-    StopDisplacement,
+    StopDisplacement(stop_displacement_m, "stop_displacement_m", "stop displacement", "m", "m"),
     /// Rotating unbalance.
-    Unbalance,
+    Unbalance(unbalance_kg_m, "unbalance_kg_m", "rotating unbalance", "kg m", "kg m"),
     /// Constant force.
-    ConstantForce,
+    ConstantForce(constant_force_n, "constant_force_n", "constant force", "N", "N"),
     /// Acceleration of gravity.
-    Gravity,
+    Gravity(gravity_m_per_s2, "gravity_m_per_s2", "gravity", "m/s²", "m s-2"),
 }
 
 impl BodyNumber {
-    /// All of them.
-    pub const ALL: [Self; 17] = [
-        Self::Mass,
-        Self::Stiffness,
-        Self::DampingCoefficient,
-        Self::DampingRatio,
-        Self::Force,
-        Self::Frequency,
-        Self::Gap,
-        Self::SecondGap,
-        Self::Gaps,
-        Self::Restitutions,
-        Self::BaseDisplacement,
-        Self::BaseVelocity,
-        Self::BaseAcceleration,
-        Self::StopDisplacement,
-        Self::Unbalance,
-        Self::ConstantForce,
-        Self::Gravity,
-    ];
-
-    /// Its name, what it is, its unit, and its unit in the notation of UDUNITS.
-    const fn words(self) -> [&'static str; 4] {
-        match self {
-            Self::Mass => ["mass_kg", "mass", "kg", "kg"],
-            Self::Stiffness => ["stiffness_n_per_m", "stiffness", "N/m", "N m-1"],
-            Self::DampingCoefficient => ["damping_ns_per_m", "damping coefficient", "N s/m", "N s m-1"],
-            Self::DampingRatio => ["damping_ratio", "damping ratio", "", "1"],
-            Self::Force => ["force_n", "force", "N", "N"],
-            Self::Frequency => ["frequency_hz", "frequency", "Hz", "Hz"],
-            Self::Gap => ["gap_m", "gap", "m", "m"],
-            Self::SecondGap => ["second_gap_m", "second gap", "m", "m"],
-            Self::Gaps => ["gaps_m", "gap of both stops", "m", "m"],
-            Self::Restitutions => ["restitutions", "restitution of both stops", "", "1"],
-            Self::BaseDisplacement => ["base_displacement_m", "base displacement", "m", "m"],
-            Self::BaseVelocity => ["base_velocity_m_per_s", "base velocity", "m/s", "m s-1"],
-            Self::BaseAcceleration => ["base_acceleration_m_per_s2", "base acceleration", "m/s²", "m s-2"],
-            Self::StopDisplacement => ["stop_displacement_m", "stop displacement", "m", "m"],
-            Self::Unbalance => ["unbalance_kg_m", "rotating unbalance", "kg m", "kg m"],
-            Self::ConstantForce => ["constant_force_n", "constant force", "N", "N"],
-            Self::Gravity => ["gravity_m_per_s2", "gravity", "m/s²", "m s-2"],
-        }
-    }
-
     /// Its name in plans and tables, which ends in its unit.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -142,28 +126,6 @@ impl BodyNumber {
         // the gap of both stops determines each of them
         let both = |a, b| a == Self::Gaps && matches!(b, Self::Gap | Self::SecondGap);
         group(self) == group(other) || both(self, other) || both(other, self)
-    }
-
-    /// Where a body has it; of both stops, where the first has it.
-    pub(super) const fn place(self, body: &mut Body) -> &mut Option<f64> {
-        match self {
-            Self::Mass => &mut body.mass_kg,
-            Self::Stiffness => &mut body.stiffness_n_per_m,
-            Self::DampingCoefficient => &mut body.damping_ns_per_m,
-            Self::DampingRatio => &mut body.damping_ratio,
-            Self::Force => &mut body.force_n,
-            Self::Frequency => &mut body.frequency_hz,
-            Self::Gap | Self::Gaps => &mut body.gap_m,
-            Self::SecondGap => &mut body.second_gap_m,
-            Self::Restitutions => &mut body.restitution,
-            Self::BaseDisplacement => &mut body.base_displacement_m,
-            Self::BaseVelocity => &mut body.base_velocity_m_per_s,
-            Self::BaseAcceleration => &mut body.base_acceleration_m_per_s2,
-            Self::StopDisplacement => &mut body.stop_displacement_m,
-            Self::Unbalance => &mut body.unbalance_kg_m,
-            Self::ConstantForce => &mut body.constant_force_n,
-            Self::Gravity => &mut body.gravity_m_per_s2,
-        }
     }
 
     /// Its value, of a complete body; `None` for a second stop, or for symmetric stops, that the body does not have. A number that is
