@@ -18,6 +18,7 @@ mod machines;
 mod many;
 mod margins;
 mod overlays;
+mod pages;
 mod planes;
 mod questions;
 mod refusals;

@@ -64,49 +64,37 @@ fn of_every_task() {
             comes_back(system, &task);
         }
     }
+    let branch = |rest: Value| json!({ "branch": with(json!({ "label": "1/1", "vary": "gap", "to": 1.6, "points": 60 }), &rest) });
+    let margins = |rest: Value| json!({ "margins": with(json!({ "label": "1/1", "within": 1.5, "lines": 0 }), &rest) });
+    let region = |rest: Value| json!({ "region": with(json!({ "label": "1/1", "grid": 2 }), &rest) });
+    let (beta, gap) = (over("beta", 0.9, 0.91), over("gap", 1.0, 1.1));
+    let three = json!([{ "vary": "damping", "over": [0.1, 0.2] }, { "vary": "gap", "over": "1:2:2" },
+                       { "vary": "inverse_beta", "over": "1:2:2" }]);
     for (system, task) in [
         (&two, json!({ "diagram": { "vary": "second_restitution", "over": "0.2:0.3:2", "transient": 10, "keep": 3 } })),
         (&two, json!({ "map": { "axes": [{ "vary": "second_gap", "over": "1:2:2" }], "starts": 1 } })),
-        (
-            &one,
-            json!({ "branch": { "label": "1/1", "vary": "gap", "to": 1.6, "orbit": 1, "follow": 1, "points": 60 } }),
-        ),
-        (
-            &one,
-            json!({ "branch": { "label": "1/1", "vary": "gap", "to": 1.6, "points": 60,
-                                "also": { "parameter": "inverse_beta", "to": 1.1 } } }),
-        ),
-        (
-            &one,
-            json!({ "margins": { "label": "1/1", "within": 1.5, "lines": 0,
-                                 "vary": [{ "parameter": "gap", "scale": 0.25 }, { "parameter": "damping" }] } }),
-        ),
+        (&one, branch(json!({ "orbit": 1, "follow": 1 }))),
+        (&one, branch(json!({ "also": { "parameter": "inverse_beta", "to": 1.1 } }))),
+        (&one, margins(json!({ "vary": [{ "parameter": "gap", "scale": 0.25 }, { "parameter": "damping" }] }))),
         (
             &one,
             json!({ "curve": { "label": "1/1", "kind": "flip", "vary": over("gap", 1.0, 2.0),
                                   "and": over("inverse_beta", 1.1, 1.12), "orbit": 1, "event": 1 } }),
         ),
-        (
-            &one,
-            json!({ "region": { "label": "1/1", "across": over("beta", 0.9, 0.91), "up": over("gap", 1.0, 1.1), "grid": 2 } }),
-        ),
-        (
-            &one,
-            json!({ "region": { "label": "1/1", "across": over("gap", 1.0, 1.1), "up": over("beta", 0.9, 0.91), "grid": 2 } }),
-        ),
-        (
-            &one,
-            json!({ "map": { "starts": 1, "axes": [{ "vary": "damping", "over": [0.1, 0.2] }, { "vary": "gap", "over": "1:2:2" },
-                                                   { "vary": "inverse_beta", "over": "1:2:2" }] } }),
-        ),
-        (
-            &two,
-            json!({ "region": { "label": "1/1", "across": over("gap", 1.0, 1.1),
-                                   "up": over("second_restitution", 0.3, 0.4), "grid": 2 } }),
-        ),
+        (&one, region(json!({ "across": beta, "up": gap }))),
+        (&one, region(json!({ "across": gap, "up": beta }))),
+        (&one, json!({ "map": { "starts": 1, "axes": three } })),
+        (&two, region(json!({ "across": gap, "up": over("second_restitution", 0.3, 0.4) }))),
     ] {
         comes_back(system, &task);
     }
+}
+
+/// An object with the fields of another one too.
+fn with(mut object: Value, more: &Value) -> Value {
+    let fields = object.as_object_mut().expect("an object");
+    fields.extend(more.as_object().expect("an object").clone());
+    object
 }
 
 /// The command of a body has the numbers of the body, and starts in metres.
@@ -115,32 +103,23 @@ fn of_a_machine_in_its_units() {
     let machine = json!({ "mass_kg": 0.8, "stiffness_n_per_m": 12000, "force_n": 30, "frequency_hz": 15.5, "gap_m": 0.0015,
                           "restitution": 0.65, "damping_ratio": 0.02, "second_gap_m": 0.004, "second_restitution": 0.5 });
     let length = 30.0 / 12000.0;
+    let axis = |vary: &str, over: &str| json!({ "vary": vary, "over": over });
+    let map = |axes: &[Value]| json!({ "map": { "axes": axes, "starts": 1 } });
+    let (frequency, gap) = (|| axis("frequency_hz", "10:20:3"), || axis("gap_m", "0.001:0.002:2"));
+    let xs = format!("{}:{}:3", -0.002 / length, 0.001 / length);
     for (task, part) in [
         (json!({ "settle": { "start": { "x": 0.0005 / length } } }), "--x 0.0005"),
         (json!({ "simulate": { "start": {}, "periods": 3.0 } }), "--frequency-hz 15.5"),
         (json!({ "simulate": { "start": {}, "time": 0.25 * (12_000.0_f64 / 0.8).sqrt() } }), "--time 0.25"),
-        (
-            json!({ "map": { "axes": [{ "vary": "frequency_hz", "over": "10:20:3" }, { "vary": "gap_m", "over": "0.001:0.002:2" }], "starts": 1 } }),
-            "--frequency-hz 10:20:3",
-        ),
-        (
-            json!({ "map": { "axes": [{ "vary": "gap_m", "over": "0.001:0.002:2" }, { "vary": "frequency_hz", "over": "10:20:3" }], "starts": 1 } }),
-            "--axes gap-m,frequency-hz",
-        ),
-        (
-            json!({ "map": { "axes": [{ "vary": "damping_ratio", "over": "0:0.1:2" }, { "vary": "restitution", "over": "0.5:0.6:2" }], "starts": 1 } }),
-            "--damping-ratio 0:0.1:2",
-        ),
+        (map(&[frequency(), gap()]), "--frequency-hz 10:20:3"),
+        (map(&[gap(), frequency()]), "--axes gap-m,frequency-hz"),
+        (map(&[axis("damping_ratio", "0:0.1:2"), axis("restitution", "0.5:0.6:2")]), "--damping-ratio 0:0.1:2"),
         (
             json!({ "diagram": { "vary": "gap_m", "over": "0.001:0.002:3", "keep": 3,
                                  "also": { "parameter": "frequency_hz", "from": 15.0, "to": 15.5 } } }),
             "--also frequency-hz=15:15.5",
         ),
-        (
-            json!({ "basin": { "axes": [{ "vary": "x", "over": format!("{}:{}:3", -0.002 / length, 0.001 / length) },
-                                        { "vary": "v", "over": "0:1:2" }] } }),
-            "--x -0.002:0.001:3",
-        ),
+        (json!({ "basin": { "axes": [axis("x", &xs), axis("v", "0:1:2")] } }), "--x -0.002:0.001:3"),
     ] {
         let plan: Plan =
             serde_json::from_value(json!({ "version": 1, "system": { "machine": machine }, "task": task })).unwrap();

@@ -5,26 +5,15 @@ use std::collections::BTreeSet;
 
 /// An elastic ball between a wall and a moving wall.
 const BALL: &str = r#"
-[parameters]
-L = 1
-eps = 0.05
+parameters = { L = 1, eps = 0.05 }
+start = { q = [0.5], qdot = [0.33] }
 [machine]
 bodies = { ball = 1 }
 frequency = 1
-[[machine.stop]]
-name = "fixed"
-between = ["ground", "ball"]
-gap = 0
-restitution = 1
-[[machine.stop]]
-name = "moving"
-at = "ball"
-gap = "L"
-restitution = 1
-motion = [{ sin = "-eps" }]
-[start]
-q = [0.5]
-qdot = [0.33]
+stop = [
+  { name = "fixed", between = ["ground", "ball"], gap = 0, restitution = 1 },
+  { name = "moving", at = "ball", gap = "L", restitution = 1, motion = [{ sin = "-eps" }] },
+]
 "#;
 
 /// A slider that friction holds, and a hammer on it between two stops.
@@ -35,33 +24,17 @@ mass = [1, 1]
 stiffness = [[1, -1], [-1, 1]]
 damping = [[0.2, -0.2], [-0.2, 0.2]]
 frequency = 1.0
-[[machine.force]]
-order = 1
-cos = [0, 0.05]
-sin = [0, 0]
-[[machine.stop]]
-name = "right"
-direction = [0, 1]
-gap = 1.0
-restitution = 0.5
-[[machine.stop]]
-name = "left"
-direction = [0, -1]
-gap = 1.0
-restitution = 0.5
-[[machine.friction]]
-name = "ground"
-direction = [1, 0]
-sliding = 5
-static = 5
+force = [{ order = 1, cos = [0, 0.05], sin = [0, 0] }]
+stop = [
+  { name = "right", direction = [0, 1], gap = 1.0, restitution = 0.5 },
+  { name = "left", direction = [0, -1], gap = 1.0, restitution = 0.5 },
+]
+friction = [{ name = "ground", direction = [1, 0], sliding = 5, static = 5 }]
 "#;
 
 /// A structure of three coordinates with stiff stops, whose chaos ends.
 const LONG: &str = r#"
-[start]
-q = [-0.1479, -0.0759, 0.2969]
-qdot = [-0.4201, 0.976, -0.0398]
-phase = 2.1116
+start = { q = [-0.1479, -0.0759, 0.2969], qdot = [-0.4201, 0.976, -0.0398], phase = 2.1116 }
 [machine]
 coordinates = ["x1", "x2", "x3"]
 mass = [1.151, 0.3236, 2.706]
@@ -69,31 +42,12 @@ stiffness = [[7.08, -3.534, 0.0], [-3.534, 3.8682, -0.3342], [0.0, -0.3342, 0.33
 damping = [[0.13005, -0.01095, 0.0], [-0.01095, 0.02223, -0.01128], [0.0, -0.01128, 0.07717]]
 constant = [0.0013, 0.2998, 0.3128]
 frequency = 1.743
-[[machine.force]]
-order = 1
-cos = [0.8068, 0.0, 0.4877]
-sin = [-0.0504, 0.0, 0.257]
-[[machine.stop]]
-name = "s0"
-direction = [0.5778, 0.9634, 0.82]
-gap = 0.5865
-stiffness = 389.5
-damping = 52.34
-opening = "position"
-[[machine.stop]]
-name = "s1"
-direction = [-1.0, 0.0, 1.0]
-gap = 0.1934
-stiffness = 49980.0
-damping = 23.76
-opening = "position"
-[[machine.stop]]
-name = "s2"
-direction = [1.0, 0.0, -1.0]
-gap = 0.3786
-stiffness = 1222.0
-damping = 16.39
-opening = "position"
+force = [{ order = 1, cos = [0.8068, 0.0, 0.4877], sin = [-0.0504, 0.0, 0.257] }]
+stop = [
+  { name = "s0", direction = [0.5778, 0.9634, 0.82], gap = 0.5865, stiffness = 389.5, damping = 52.34, opening = "position" },
+  { name = "s1", direction = [-1.0, 0.0, 1.0], gap = 0.1934, stiffness = 49980.0, damping = 23.76, opening = "position" },
+  { name = "s2", direction = [1.0, 0.0, -1.0], gap = 0.3786, stiffness = 1222.0, damping = 16.39, opening = "position" },
+]
 "#;
 
 /// The cells of a column of a table.
