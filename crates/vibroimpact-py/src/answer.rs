@@ -178,7 +178,6 @@ fn planned(system: &System<'_>, from: Option<Start>, text: &str, tile: Option<u3
 
 /// The plan of a task, which is JSON, for a system.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // arguments from Python
 pub(crate) fn plan_of(
     system: System<'_>,
     from: Option<Start>,
@@ -234,14 +233,12 @@ pub(crate) fn contact(question: &str) -> Result<(String, String), Trouble> {
 
 /// The figure of shares of starts by label, as JSON.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // arguments from Python
 pub(crate) fn shares_figure(osc: OscillatorFile, shares: Vec<(String, f64)>) -> Result<String, Trouble> {
     text(&figure::bars::shares(&shares, title_of(osc)))
 }
 
 /// Computes the answer to a task, which is JSON, for a system.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // arguments from Python
 pub(crate) fn answer(
     py: Python<'_>,
     system: System<'_>,

@@ -7,7 +7,6 @@ use std::path::PathBuf;
 
 /// Runs the command with these words, the first of which is its name. `program` is its file. Returns the exit code.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn vibro(py: Python<'_>, words: Vec<OsString>, program: PathBuf) -> u8 {
     door::here(py, || vibroimpact_cli::run(&words, Some(program)))
 }

@@ -45,7 +45,6 @@ type Further<'py> = (Option<Column<'py, f64>>, Option<Column<'py, i32>>, Option<
 /// shares, numbers of cycles and whether each point was computed itself, if there are any; and the values of a quantity, which of
 /// several motions has the colour, and the name of the quantity.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn cells_figure(
     axes: Vec<Column<'_, f64>>,
     labels: Column<'_, i32>,
@@ -88,7 +87,6 @@ pub(crate) fn cells_figure(
 
 /// The figure of motions at places that are no grid, by the codes of their labels.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn scattered_figure(
     xs: Column<'_, f64>,
     ys: Column<'_, f64>,
@@ -104,7 +102,6 @@ pub(crate) fn scattered_figure(
 /// with rising and falling values of the parameter with this symbol; there are none for scattered starts. A motion with fewer points
 /// than `keep` repeats.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn diagram_figure(
     over: Column<'_, f64>,
     points: PyReadonlyArray3<'_, f64>,

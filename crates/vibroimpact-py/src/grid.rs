@@ -123,7 +123,6 @@ pub(crate) fn fill<'py>(
 
 /// The labels of codes: m/n, "0", "chaotic", "stuck" or "undecided"; an empty text where there is no motion.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn labels_of(codes: Vec<i32>) -> Vec<String> {
     codes.into_iter().map(|code| label_of(code).unwrap_or_default()).collect()
 }
@@ -151,7 +150,6 @@ pub(crate) struct MergingFields {
 
 /// The measures of a plane of numbers of motions, with `width` of them in each row.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn basin_measures(cells: PyReadonlyArray1<'_, i64>, width: usize) -> MeasureFields {
     let found = measures(&cells.as_array().to_vec(), width);
     MeasureFields {

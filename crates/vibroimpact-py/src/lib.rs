@@ -3,6 +3,7 @@
 //!
 //! Each file has one family of functions. Checked parameters, plans and columns of numbers are here; results with
 //! methods, figures and documentation are written in Python, in `python/vibroimpact`.
+#![allow(clippy::needless_pass_by_value, reason = "arguments from Python are values")]
 
 mod answer;
 mod axis;

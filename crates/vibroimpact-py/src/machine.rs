@@ -67,7 +67,6 @@ impl MachineFile {
     }
 
     /// The same with other numbers, in this order.
-    #[allow(clippy::needless_pass_by_value)] // arguments from Python
     fn with_numbers(&self, changes: Vec<(String, f64)>) -> Result<Self, Trouble> {
         let mut source = self.0.clone();
         for (path, value) in &changes {
@@ -257,7 +256,6 @@ fn section(machine: &Machine, start: &events::Start, of: &Section) -> Result<Vec
 /// The states of machines in a section: a row of `width` states for each, filled up with not-a-number. Times and phases, and one column
 /// for each coordinate and each velocity.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // arguments from Python
 pub(crate) fn states_of_machines<'py>(
     py: Python<'py>,
     file: &MachineFile,
@@ -284,7 +282,6 @@ pub(crate) fn states_of_machines<'py>(
 
 /// Follows machines event by event, from one start each. `numbers` are columns of numbers that vary, by their paths.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // arguments from Python
 pub(crate) fn simulate_machines<'py>(
     py: Python<'py>,
     file: &MachineFile,

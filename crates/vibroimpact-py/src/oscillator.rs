@@ -61,7 +61,6 @@ impl OscillatorFile {
 
     /// Of the numbers of a body by their names in SI units.
     #[staticmethod]
-    #[allow(clippy::needless_pass_by_value)] // called from Python
     fn physical(numbers: HashMap<String, f64>, stop_in_space: bool) -> Result<Self, Trouble> {
         if let Some((name, value)) = numbers.iter().find(|(_, value)| !value.is_finite()) {
             return Err(Trouble::question(format!("{name} = {value} is not a finite number")));

@@ -63,7 +63,6 @@ pub(crate) fn checked_plan(given: &str) -> Result<PlanFields, Trouble> {
 /// The units of length, time and mass of a body, the system of a plan as JSON, at points: columns of values of some of
 /// its parameters. Points that are no machine have not-a-number.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // arguments from Python
 pub(crate) fn scales_of_points(
     system: &str,
     names: Vec<String>,

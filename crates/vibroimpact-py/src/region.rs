@@ -8,7 +8,6 @@ use vibroimpact::continuation::{Bound as Edge, Polygon, Region, Vertex};
 /// Whether each of some points lies in a region. Each polygon is given by its vertices and whether multipliers are
 /// below +1.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn contains<'py>(
     py: Python<'py>,
     polygons: Vec<(PyReadonlyArray2<'py, f64>, bool)>,

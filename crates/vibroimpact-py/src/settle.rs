@@ -83,7 +83,6 @@ pub(crate) type Many<'py> = (Vec<(String, u64)>, Bound<'py, PyArray1<u32>>);
 
 /// Settles starts given as columns. Each column has the length of the longest one or length 1.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn settle_many<'py>(
     py: Python<'py>,
     osc: OscillatorFile,

@@ -69,7 +69,6 @@ pub(crate) const fn end_reasons() -> [&'static str; END_REASONS.len()] {
 
 /// Follows the motion at each point event by event.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn simulate_points<'py>(
     py: Python<'py>,
     osc: OscillatorFile,
@@ -104,7 +103,6 @@ pub(crate) fn simulate_points<'py>(
 
 /// The states of the motion at each point in a section: times, phases, positions and velocities.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn states_of_points<'py>(
     py: Python<'py>,
     osc: OscillatorFile,
