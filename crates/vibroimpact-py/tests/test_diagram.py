@@ -84,8 +84,6 @@ def test_a_line_through_two_parameters(s: vi.Oscillator) -> None:
         np.testing.assert_array_equal(line["velocity"].values[:, k], alone["velocity"].values[:, 0])
     ax = line.vibro.plot()
     assert ax.get_xlabel() == "1/$β$, with $δ$ from 1 to 0.5"
-    with pytest.raises(vi.QuestionError, match="gap and gap cannot vary together"):
-        vi.orbit_diagram(s, "gap", "0:1:3", also={"gap": (0, 1)})
     with pytest.raises(TypeError, match="also is one parameter with its values"):
         vi.orbit_diagram(s, "gap", "0:1:3", also={"damping": (0, 1), "beta": (1, 2)})
 

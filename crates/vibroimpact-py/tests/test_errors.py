@@ -11,6 +11,7 @@ import vibroimpact as vi
 
 GOOD = {"inverse_beta": 1.3, "gap": 0.75, "restitution": 0.5}
 MACHINE = {"mass": 2, "stiffness": 800, "force": 4, "omega": 25, "gap": 0.01, "restitution": 0.5}
+BALL, HAMMER = (vi.Machine.named(name) for name in ("bouncing-ball", "two-mass-hammer"))
 
 
 @pytest.mark.parametrize(
@@ -85,6 +86,30 @@ def test_oscillators_in_the_words_of_the_command(
         (lambda osc: vi.Plan('{"version": 1, "system": {"gip": 1}, "task": {}}'), "unknown field `gip`"),
         (lambda osc: vi.simulate(osc).plot(si=True), "si=True needs the system in physical units"),
         (lambda osc: vi.settle(vi.Oscillator(beta=0.5, gap=9, restitution=0.5)).plot(), "has no events to start from"),
+        (lambda osc: vi.orbit_diagram(osc, "gap", "0:1:3", also={"gap": (0, 1)}), "gap and gap cannot vary together"),
+        (lambda osc: vi.orbit_diagram(osc, "gap", "0:3:5").vibro.plot(colour="velocity"), "only basins and maps have colours"),
+        (lambda osc: BALL.curve("fold", {"Gamma": (0.2, 3)}), "a plane has two"),
+        (lambda osc: BALL.curve("folds", {"Gamma": (0.2, 3), "e": (0.3, 0.8)}), "unknown variant"),
+        (lambda osc: vi.Plan.basin(HAMMER, {"q.head": "0:1:2"}, x=0.5), "x is no part of the start"),
+        (lambda osc: vi.basin(HAMMER, {"q.tail": "0:1:3"}), "q.NAME, qdot.NAME or phase"),
+        (lambda osc: vi.Plan.lyapunov(HAMMER, {"frequency": "0.8:1.2:3"}, x=1), "x is no part of the start"),
+        (lambda osc: vi.Plan.lyapunov(HAMMER, {"q.tail": "0:1:3"}), "q.tail"),
+        (lambda osc: vi.orbit_diagram(HAMMER, "frequency", "1:1.2:5", show="velocity"), "nothing that a diagram of a machine shows"),
+        (lambda osc: HAMMER.settle_many(starts={"q.tail": [0, 1]}), "starts has no coordinate `q.tail`"),
+        (lambda osc: HAMMER.settle_many(over={"stop.anvil.gup": [0, 1]}), "no such number"),
+        (lambda osc: vi.settle_many(osc, over={"gap": [0.5, 1.0]}).vibro.plot(), "the points differ in gap only"),
+        (lambda osc: vi.margins(osc, vary=["gap"], scale={"damping": 1.0}), "the scale of damping has no effect"),
+        (lambda osc: vi.margins(osc, vary=["mass"]), "`mass` is no parameter"),
+        (lambda osc: vi.margins(osc, within=1), "within = 1 lies outside"),
+        (lambda osc: vi.region_map(osc, {"gap": [0.5, 0.75]}, fields="power"), "a list of names"),
+        (lambda osc: vi.region_map(osc, {"gap": [0.5, 0.75]}, fields=["speed"]), "`speed` is no quantity"),
+        (lambda osc: vi.Oscillator.from_units(**MACHINE).replace(mass_kg=-1), "mass m = -1 kg lies outside"),
+        (lambda osc: vi.Oscillator.from_units(**MACHINE, damping=1, damping_ratio=0.1), "two forms of one number"),
+        (lambda osc: vi.response(osc, "force_n", "1:2:3"), "nondimensional"),
+        (lambda osc: vi.span(0, 1, 0), "asks for 0 values"),
+        (lambda osc: vi.span(0, 1, -1), "count = -1 lies outside 1 <= count"),
+        (lambda osc: osc.replace(restitution=7), "restitution eps = 7 lies outside"),
+        (lambda osc: osc.replace(gap_m=0.004), "gap_m needs the system in physical units"),
     ],
 )
 def test_questions_that_make_no_sense(s: vi.Oscillator, ask: Callable[[vi.Oscillator], Any], sentence: str) -> None:

@@ -244,5 +244,3 @@ def test_colours_that_are_refused(s: vi.Oscillator) -> None:
     ds = vi.basin(s, x="-4:0.75:5", v="-4:4:4", fields=["power"])
     with pytest.raises(vi.QuestionError, match="`speed` is no quantity of the motions in this Dataset; there are power"):
         ds.vibro.plot(colour="speed")
-    with pytest.raises(vi.QuestionError, match="only basins and maps have colours"):
-        vi.orbit_diagram(s, "gap", "0:3:5").vibro.plot(colour="velocity")

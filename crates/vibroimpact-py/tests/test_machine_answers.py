@@ -101,10 +101,6 @@ def test_a_curve_is_that_of_the_closed_form() -> None:
     assert found.parameters == ("Gamma", "e") and [event.kind for event in found.events] == ["end of box"] * 2
     assert found.multipliers.shape == (len(found), 2) and np.all(found.residual < 1e-9)
     assert np.allclose(found.values[found.through[1]], [found.found_at[found.through[0] - 1], 0.5], atol=1e-9)
-    with pytest.raises(vi.QuestionError, match="a plane has two"):
-        ball.curve("fold", {"Gamma": (0.2, 3)})
-    with pytest.raises(vi.QuestionError, match="unknown variant"):
-        ball.curve("folds", {"Gamma": (0.2, 3), "e": (0.3, 0.8)})
 
 
 def test_progress_stops() -> None:

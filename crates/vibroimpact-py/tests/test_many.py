@@ -167,5 +167,3 @@ def test_points_are_drawn_over_the_first_two_that_vary() -> None:
     assert sorted(drawn.tolist()) == sorted(SAMPLES["inverse_beta"].tolist())
     legend = ax.get_legend()
     assert legend is not None and len(legend.get_texts()) == sum(len(line.get_xdata()) > 0 for line in ax.get_lines())
-    with pytest.raises(vi.QuestionError, match="the points differ in gap only"):
-        vi.settle_many(vi.Oscillator(beta=1, gap=0, restitution=0.5), over={"gap": [0.5, 1.0]}).vibro.plot()

@@ -19,10 +19,6 @@ def test_fields_of_maps_and_basins() -> None:
     of = {m.label: m.quantities["impact_speed_max"] for m in vi.attractors(osc, starts=50) if m.quantities}
     for label, values in zip(basin.vibro.labels().values.ravel(), basin["impact_speed_max"].values.ravel(), strict=True):
         assert abs(values - of[label]) < 1e-9
-    with pytest.raises(vi.QuestionError, match="a list of names"):
-        vi.region_map(osc, {"gap": [0.5, 0.75]}, fields="power")
-    with pytest.raises(vi.QuestionError, match="`speed` is no quantity"):
-        vi.region_map(osc, {"gap": [0.5, 0.75]}, fields=["speed"])
 
 
 def test_fields_in_si_units() -> None:
@@ -103,8 +99,6 @@ def test_a_number_is_replaced_and_all_others_are_held():
     assert MACHINE.replace(force_n=60).gap == pytest.approx(MACHINE.gap / 2, rel=1e-15)
     again = pickle.loads(pickle.dumps(heavier))
     assert again == heavier and again.replace(mass_kg=0.8) == MACHINE
-    with pytest.raises(vi.QuestionError, match="mass m = -1 kg lies outside"):
-        MACHINE.replace(mass_kg=-1)
 
 
 def test_a_response_over_a_number_is_in_si():
@@ -123,7 +117,3 @@ def test_other_excitations():
     unbalance = vi.Oscillator.from_units(**shared, unbalance=0.0014)
     faster = unbalance.replace(frequency_hz=2 * 31 / (2 * np.pi))
     assert faster.gap == pytest.approx(unbalance.gap / 4, rel=1e-14)
-    with pytest.raises(vi.QuestionError, match="two forms of one number"):
-        vi.Oscillator.from_units(**shared, force=1, damping=1, damping_ratio=0.1)
-    with pytest.raises(vi.QuestionError, match="nondimensional"):
-        vi.response(vi.Oscillator(beta=1, gap=1, restitution=0.5), "force_n", "1:2:3")

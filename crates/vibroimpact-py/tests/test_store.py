@@ -46,8 +46,6 @@ def test_parts_in_any_order(plan: vi.Plan, tmp_path: Path, threads: int) -> None
     for part in ((3, 3), (1, 3), (2, 3)):
         vi.run(plan, tmp_path / "parts.zarr", part=part, threads=threads)
     assert contents(tmp_path / "parts.zarr") == contents(tmp_path / "one.zarr")
-    with pytest.raises(vi.QuestionError, match="tiles 4/3 is no part"):
-        vi.run(plan, tmp_path / "parts.zarr", part=(4, 3))
 
 
 def test_a_budget_and_the_progress(plan: vi.Plan, tmp_path: Path) -> None:
