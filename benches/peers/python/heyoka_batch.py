@@ -14,19 +14,7 @@ import heyoka as hy
 import numpy as np
 
 from heyoka_scalar import RESTITUTION, TOLERANCE, seconds_per_call
-from peer import (
-    DROPPED,
-    FIRST,
-    FOLLOWED,
-    MOST_M,
-    TAU,
-    Basin,
-    Followed,
-    Start,
-    basin_start,
-    label,
-    main,
-)
+from peer import (DROPPED, FIRST, FOLLOWED, MOST_M, TAU, Basin, Followed, Start, basin_start, label, main)
 
 LANES: int = hy.recommended_simd_size()
 ROUND = 4096

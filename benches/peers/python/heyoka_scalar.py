@@ -14,19 +14,7 @@ from collections.abc import Callable, Sequence
 
 import heyoka as hy
 
-from peer import (
-    DROPPED,
-    FIRST,
-    FOLLOWED,
-    MOST_M,
-    OUTLOOK,
-    Basin,
-    Followed,
-    Start,
-    basin_start,
-    label,
-    main,
-)
+from peer import (DROPPED, FIRST, FOLLOWED, MOST_M, OUTLOOK, Basin, Followed, Start, basin_start, label, main)
 
 TOLERANCE = 1e-12
 RESTITUTION = 0.5

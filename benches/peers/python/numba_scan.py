@@ -10,20 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 from numba import njit
 
-from peer import (
-    DROPPED,
-    FIRST,
-    FOLLOWED,
-    MOST_M,
-    OUTLOOK,
-    TAU,
-    Basin,
-    Followed,
-    Start,
-    basin_start,
-    label,
-    main,
-)
+from peer import (DROPPED, FIRST, FOLLOWED, MOST_M, OUTLOOK, TAU, Basin, Followed, Start, basin_start, label, main)
 
 STEP = 0.1
 STUCK = -1.0

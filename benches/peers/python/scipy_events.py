@@ -13,19 +13,7 @@ from collections.abc import Sequence
 
 from scipy.integrate import solve_ivp
 
-from peer import (
-    DROPPED,
-    FIRST,
-    FOLLOWED,
-    OUTLOOK,
-    TAU,
-    Basin,
-    Followed,
-    Start,
-    basin_start,
-    label,
-    main,
-)
+from peer import (DROPPED, FIRST, FOLLOWED, OUTLOOK, TAU, Basin, Followed, Start, basin_start, label, main)
 
 TOLERANCES: dict[str, dict[str, float]] = {"RK45": {}, "DOP853": {"rtol": 1e-9, "atol": 1e-12}}
 SHORTEST = 1e-10

@@ -125,11 +125,7 @@ def test_a_worker_may_be_killed_at_any_moment(
 
 
 def murder(
-    cluster: "distributed.LocalCluster",
-    place: Path,
-    moments: list[float],
-    random: Random,
-    over: threading.Event,
+    cluster: "distributed.LocalCluster", place: Path, moments: list[float], random: Random, over: threading.Event,
     killed: list[int],
 ) -> None:
     """Kill a worker at each of these moments, given as numbers of complete tiles. Late moments are left out."""

@@ -40,9 +40,7 @@ def store(request: pytest.FixtureRequest, s: vi.Oscillator, u: vi.Oscillator, tm
 
 
 @pytest.mark.parametrize("engine", ["netcdf4", "h5netcdf", "scipy"])
-def test_netcdf_holds_all_arrays(
-    store: Path, engine: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_netcdf_holds_all_arrays(store: Path, engine: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     modules = _export._ENGINES[engine]
     for module in modules:
         pytest.importorskip(module)

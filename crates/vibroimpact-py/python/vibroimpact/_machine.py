@@ -107,25 +107,14 @@ class Machine(Questions):
     _file: _core.MachineFile
 
     def __init__(
-        self,
-        *,
-        coordinates: Sequence[str] | None = None,
-        mass: ArrayLike | None = None,
-        damping: ArrayLike | None = None,
-        stiffness: ArrayLike | None = None,
-        bodies: Mapping[str, Any] | None = None,
-        links: Sequence[_Part] | None = None,
-        modes: Sequence[_Part] | None = None,
-        modal_damping: ArrayLike | None = None,
-        constant: Any = None,
-        frequency: float | str | None = None,
-        frequency_hz: float | str | None = None,
-        forces: Sequence[_Part] | None = None,
+        self, *, coordinates: Sequence[str] | None = None, mass: ArrayLike | None = None,
+        damping: ArrayLike | None = None, stiffness: ArrayLike | None = None, bodies: Mapping[str, Any] | None = None,
+        links: Sequence[_Part] | None = None, modes: Sequence[_Part] | None = None,
+        modal_damping: ArrayLike | None = None, constant: Any = None, frequency: float | str | None = None,
+        frequency_hz: float | str | None = None, forces: Sequence[_Part] | None = None,
         stops: Sequence[_Part] | Mapping[str, _Part] | None = None,
-        joints: Sequence[_Part] | Mapping[str, _Part] | None = None,
-        parameters: Mapping[str, float] | None = None,
-        start: _Part | None = None,
-        title: str | None = None,
+        joints: Sequence[_Part] | Mapping[str, _Part] | None = None, parameters: Mapping[str, float] | None = None,
+        start: _Part | None = None, title: str | None = None,
     ) -> None:
         table = {
             "coordinates": coordinates, "bodies": bodies, "mass": mass, "damping": damping, "stiffness": stiffness,

@@ -160,14 +160,8 @@ class Plan:
 
     @staticmethod
     def samples(
-        system: "System | Points",
-        *,
-        over: "Points | None" = None,
-        starts: "Points | None" = None,
-        fields: Sequence[str] = (),
-        transient: bool = False,
-        impacts: int | None = None,
-        tile: int | None = None,
+        system: "System | Points", *, over: "Points | None" = None, starts: "Points | None" = None,
+        fields: Sequence[str] = (), transient: bool = False, impacts: int | None = None, tile: int | None = None,
     ) -> "Plan":
         """A plan for the motions at points of systems and starts; the arguments are those of `settle_many`.
 

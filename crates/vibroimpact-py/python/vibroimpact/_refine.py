@@ -28,19 +28,9 @@ _MOST_SIDES = 4
 
 
 def refine(
-    system: "Oscillator | Points",
-    over: Mapping[str, Interval],
-    store: str | PathLike[str],
-    *,
-    cells: int = 16,
-    rounds: int = 4,
-    starts: "Points | None" = None,
-    fields: Sequence[str] = (),
-    impacts: int | None = None,
-    tile: int | None = None,
-    client: "Client | None" = None,
-    threads: int = 0,
-    progress: Progress = None,
+    system: "Oscillator | Points", over: Mapping[str, Interval], store: str | PathLike[str], *, cells: int = 16,
+    rounds: int = 4, starts: "Points | None" = None, fields: Sequence[str] = (), impacts: int | None = None,
+    tile: int | None = None, client: "Client | None" = None, threads: int = 0, progress: Progress = None,
 ) -> "xr.Dataset":
     """Settle the motions at the points of a grid that becomes finer where the labels change.
 

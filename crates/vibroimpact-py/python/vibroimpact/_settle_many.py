@@ -29,49 +29,25 @@ if TYPE_CHECKING:
 
 @overload
 def settle_many(
-    system: Oscillator,
-    x: ArrayLike,
-    v: ArrayLike = 0.0,
-    phase: ArrayLike = 0.0,
-    *,
-    threads: int = 0,
+    system: Oscillator, x: ArrayLike, v: ArrayLike = 0.0, phase: ArrayLike = 0.0, *, threads: int = 0,
     progress: Progress = None,
 ) -> Settlement: ...
 
 
 @overload
 def settle_many(
-    system: "System | Points",
-    *,
-    over: "Points | None" = None,
-    starts: "Points | None" = None,
-    fields: Sequence[str] = (),
-    transient: bool = False,
-    impacts: int | None = None,
-    store: str | PathLike[str] | None = None,
-    client: "Client | None" = None,
-    tile: int | None = None,
-    threads: int = 0,
+    system: "System | Points", *, over: "Points | None" = None, starts: "Points | None" = None,
+    fields: Sequence[str] = (), transient: bool = False, impacts: int | None = None,
+    store: str | PathLike[str] | None = None, client: "Client | None" = None, tile: int | None = None, threads: int = 0,
     progress: Progress = None,
 ) -> "xr.Dataset": ...
 
 
 def settle_many(
-    system: "System | Points",
-    x: ArrayLike | None = None,
-    v: ArrayLike = 0.0,
-    phase: ArrayLike = 0.0,
-    *,
-    over: "Points | None" = None,
-    starts: "Points | None" = None,
-    fields: Sequence[str] = (),
-    transient: bool = False,
-    impacts: int | None = None,
-    store: str | PathLike[str] | None = None,
-    client: "Client | None" = None,
-    tile: int | None = None,
-    threads: int = 0,
-    progress: Progress = None,
+    system: "System | Points", x: ArrayLike | None = None, v: ArrayLike = 0.0, phase: ArrayLike = 0.0, *,
+    over: "Points | None" = None, starts: "Points | None" = None, fields: Sequence[str] = (), transient: bool = False,
+    impacts: int | None = None, store: str | PathLike[str] | None = None, client: "Client | None" = None,
+    tile: int | None = None, threads: int = 0, progress: Progress = None,
 ) -> "Settlement | xr.Dataset":
     """Follow many motions until they have settled: from many starts, of many systems.
 

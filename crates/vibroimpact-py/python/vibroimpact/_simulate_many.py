@@ -27,17 +27,9 @@ _KINDS = ("impact", "graze", "stick", "release")
 
 
 def simulate_many(
-    system: "System | Points",
-    *,
-    over: "Points | None" = None,
-    starts: "Points | None" = None,
-    impacts: int | None = None,
-    periods: float | None = None,
-    time: float | None = None,
-    at: ArrayLike | None = None,
-    phase: float | None = None,
-    position: float | Mapping[str, float] | None = None,
-    threads: int = 0,
+    system: "System | Points", *, over: "Points | None" = None, starts: "Points | None" = None,
+    impacts: int | None = None, periods: float | None = None, time: float | None = None, at: ArrayLike | None = None,
+    phase: float | None = None, position: float | Mapping[str, float] | None = None, threads: int = 0,
     progress: Progress = None,
 ) -> "xr.Dataset":
     """Follow many motions: their events, or their states where `at`, `phase` or `position` asks for them.

@@ -16,11 +16,7 @@ if TYPE_CHECKING:
 
 
 def computed(
-    plan: Plan,
-    store: str | PathLike[str] | None,
-    client: "Client | None",
-    threads: SupportsIndex,
-    progress: Progress,
+    plan: Plan, store: str | PathLike[str] | None, client: "Client | None", threads: SupportsIndex, progress: Progress,
 ) -> "xr.Dataset":
     """Compute the Dataset of a plan: in memory, or in a store by threads of this process or by the workers of a client."""
     threads = threads_of(threads)
@@ -126,13 +122,8 @@ class Verified:
 
 
 def run(
-    plan: Plan,
-    store: str | PathLike[str],
-    *,
-    part: tuple[int, int] = (1, 1),
-    threads: int = 0,
-    progress: Progress = None,
-    budget: Budget | None = None,
+    plan: Plan, store: str | PathLike[str], *, part: tuple[int, int] = (1, 1), threads: int = 0,
+    progress: Progress = None, budget: Budget | None = None,
 ) -> Ran:
     """Fill the store of a plan. Tiles that it already contains are not computed again.
 

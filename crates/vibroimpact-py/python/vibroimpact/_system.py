@@ -37,13 +37,8 @@ class Start:
     """Where a motion starts: `x`, `v` and `phase` of an oscillator, `q`, `qdot` and `phase` of a machine."""
 
     def __init__(
-        self,
-        system: System,
-        x: float | None = None,
-        v: float | None = None,
-        q: ArrayLike | None = None,
-        qdot: ArrayLike | None = None,
-        phase: float | None = None,
+        self, system: System, x: float | None = None, v: float | None = None, q: ArrayLike | None = None,
+        qdot: ArrayLike | None = None, phase: float | None = None,
     ) -> None:
         self.system = system
         self.of_machine: State | None = None

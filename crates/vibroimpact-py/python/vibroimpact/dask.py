@@ -47,17 +47,9 @@ def _tile(tile: int, points: int, place: str, plan: str) -> tuple[int, int, int]
 
 
 def run(
-    plan: Plan,
-    store: str | PathLike[str],
-    client: "Client",
-    *,
-    retries: int = 3,
-    progress: Progress = None,
-    budget: Budget | None = None,
-    in_flight: int = 1000,
-    resources: Mapping[str, float] | None = None,
-    workers: Sequence[str] | None = None,
-    priority: int = 0,
+    plan: Plan, store: str | PathLike[str], client: "Client", *, retries: int = 3, progress: Progress = None,
+    budget: Budget | None = None, in_flight: int = 1000, resources: Mapping[str, float] | None = None,
+    workers: Sequence[str] | None = None, priority: int = 0,
 ) -> Ran:
     """Fill the store of a plan by the workers of a client. Tiles that it already contains are not computed again; damaged ones are.
 
@@ -123,10 +115,7 @@ def run(
 
 
 def _rolling(
-    client: "Client",
-    work: Callable[..., T],
-    tasks: Iterable[tuple[str, tuple[Any, ...]]],
-    in_flight: int,
+    client: "Client", work: Callable[..., T], tasks: Iterable[tuple[str, tuple[Any, ...]]], in_flight: int,
     how: Mapping[str, Any],
 ) -> Generator[list[T], None, None]:
     """The results of `work` for the arguments of each task, which has a key, in batches as they come.
