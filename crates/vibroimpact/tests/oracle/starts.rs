@@ -40,6 +40,11 @@ fn random_starts() {
         tally.add(case, verdict(&case, limits, horizon));
     });
     println!("{tally}");
-    assert!(tally.total() == starts && tally.impacts > starts / 2 && tally.never > starts / 20 && tally.until > starts / 2000);
+    assert!(
+        tally.total() == starts
+            && tally.impacts > starts / 2
+            && tally.never > starts / 20
+            && tally.until > starts / 2000
+    );
     tally.expect_no_fault();
 }
