@@ -10,9 +10,11 @@ impl Structure {
     pub(crate) fn transition(&self, normal: &Normal, s: f64) -> Matrix {
         let n = normal.n;
         let mut result = Matrix::zeros(2 * n, 2 * n);
-        let free = self.free_modes(s);
-        for j in 0..2 * n {
-            let mut change = self.unit_change(normal, j);
+        let mut free = Vec::new();
+        self.free_modes(s, &mut free);
+        let mut change = ModalChange::default();
+        for (j, unit) in self.unit_changes(normal).iter().enumerate() {
+            change.copy(unit);
             self.carry(&mut change, &free, s);
             for i in 0..n {
                 result[(i, j)] = self.changed(&self.x[i], &change);
@@ -22,9 +24,10 @@ impl Structure {
         result
     }
 
-    /// The free motions of the modes over a time.
-    pub(crate) fn free_modes(&self, s: f64) -> Vec<FreeMode> {
-        self.modes.iter().map(|mode| mode.free(s)).collect()
+    /// The free motions of the modes over a time, into `free`.
+    pub(crate) fn free_modes(&self, s: f64, free: &mut Vec<FreeMode>) {
+        free.clear();
+        free.extend(self.modes.iter().map(|mode| mode.free(s)));
     }
 
     /// Moves a change on by a time, over which the modes have these free motions.

@@ -17,8 +17,9 @@ use super::saltation::StateShape;
 use crate::arc::{MachineFlight, Modes};
 use crate::machine::{FrictionJoint, Machine, MachineParts};
 use crate::math::{Matrix, RULE, add_scaled, dot};
-use crate::regime::{ContactState, ModalChange, Normal, NormalRate, PRODUCTS, Signal, Structure, compliant, rates};
-use std::sync::Arc;
+use crate::regime::{
+    ContactState, ModalChange, Normal, NormalRate, PRODUCTS, RestBuffers, Signal, Structure, compliant, rates,
+};
 
 /// The largest number of panels of half a flight.
 const MOST_PANELS: usize = 100_000;
@@ -256,16 +257,15 @@ impl<'a> ByNumber<'a> {
         carried
     }
 
-    /// The change of the state `before` at the end of a flight from `from` over a time.
+    /// The change of the state `before` at the end of the flight from `from` over a time.
     pub(crate) fn flown(
         &self,
         shape: &StateShape,
-        structure: &Arc<Structure>,
+        flight: &MachineFlight,
         (from, before): (&Place, &Place),
         time: f64,
     ) -> Option<StateChange> {
-        let n = self.normal.n;
-        let flight = from.flight(self.normal, structure.clone());
+        let (n, structure) = (self.normal.n, &flight.structure);
         let pace = self.parts.frequency.unwrap_or(0.0);
         let modes = structure.modes.len();
         let zeros = || vec![0.0; modes];
@@ -273,6 +273,7 @@ impl<'a> ByNumber<'a> {
             ModalChange { y: zeros(), v: zeros(), push: zeros(), set: vec![0.0; self.machine.joints().len()] };
         let mut seen = Seen::default();
         let still = vec![0.0; n];
+        let (mut change, mut buffers, mut free) = (ModalChange::default(), RestBuffers::default(), Vec::new());
         let all = if modes > 0 && self.acts(structure) {
             // decays are steep at the beginning, and those of the transition at the end
             PRODUCTS.between_ends(&rates(structure), time.abs(), MOST_PANELS)?
@@ -283,19 +284,20 @@ impl<'a> ByNumber<'a> {
             // the rule is symmetric: half of its points are listed
             for (point, weight) in RULE.iter().flat_map(|(point, weight)| [(*point, *weight), (-point, *weight)]) {
                 let t = (begin + 0.5 * length * (1.0 + point)) * time.signum();
-                let at = seen.at(&flight, t, pace * t, &from.x);
+                let at = seen.at(flight, t, pace * t, &from.x);
                 // the change of the acceleration at this point, carried on to the end of the flight
                 let reactions = self.reactions(structure, &at);
                 let carried = self.carried(structure, &at);
                 let force = self.force(structure, &at, &reactions, (&carried.x, &carried.v))?;
-                let mut change = structure.modal_change(self.normal, &still, &force);
-                structure.carry(&mut change, &structure.free_modes(time - t), time - t);
+                structure.modal_change_into(self.normal, (&still, &force), &mut buffers, &mut change);
+                structure.free_modes(time - t, &mut free);
+                structure.carry(&mut change, &free, time - t);
                 let weight = 0.5 * length * weight * time.signum();
                 add_scaled(&mut sum.y, weight, &change.y);
                 add_scaled(&mut sum.v, weight, &change.v);
             }
         }
-        let mut end = self.carried(structure, &seen.at(&flight, time, pace * time, &from.x));
+        let mut end = self.carried(structure, &seen.at(flight, time, pace * time, &from.x));
         for i in 0..n {
             end.x[i] += structure.changed(&structure.x[i], &sum);
             end.v[i] += structure.changed(&structure.v[i], &sum);

@@ -24,6 +24,7 @@
 
 use super::passage::Passage;
 use super::place::{Place, Structures};
+use crate::arc::MachineFlight;
 use crate::machine::{Machine, Opening, StopLaw};
 use crate::math::{Lu, Matrix, add_scaled, dot};
 use crate::regime::{ContactState, GuardKind, Normal, Orthonormal, Structure};
@@ -87,8 +88,12 @@ impl StateShape {
 
     /// The rate of the state at `place`, in the regime of `structure`.
     pub(crate) fn flow(&self, structure: &Arc<Structure>, normal: &Normal, place: &Place) -> Vec<f64> {
-        let flight = place.flight(normal, structure.clone());
-        let accelerations = structure.v.iter().map(|v| flight.first(v).1);
+        self.flow_in(&place.flight(normal, structure.clone()), place)
+    }
+
+    /// The rate of the state at `place`, at which a flight begins.
+    pub(crate) fn flow_in(&self, flight: &MachineFlight, place: &Place) -> Vec<f64> {
+        let accelerations = flight.structure.v.iter().map(|v| flight.first(v).1);
         let backs = self.surfaces.iter().map(|j| place.surfaces[*j].map_or(0.0, |of| -of.rate * of.size));
         place.v.iter().copied().chain(accelerations).chain(backs).collect()
     }

@@ -12,11 +12,22 @@ use super::structure::Structure;
 use crate::math::dot;
 
 /// A change of the modes: displacements, velocities, and constant forces (from set points).
+#[derive(Clone, Debug, Default)]
 pub(crate) struct ModalChange {
     pub(crate) y: Vec<f64>,
     pub(crate) v: Vec<f64>,
     pub(crate) push: Vec<f64>,
     pub(crate) set: Vec<f64>,
+}
+
+impl ModalChange {
+    /// Becomes a copy of another change, in its own memory.
+    pub(crate) fn copy(&mut self, other: &Self) {
+        self.y.clone_from(&other.y);
+        self.v.clone_from(&other.v);
+        self.push.clone_from(&other.push);
+        self.set.clone_from(&other.set);
+    }
 }
 
 impl Structure {
@@ -27,19 +38,31 @@ impl Structure {
 
     /// The change of the modes that belongs to a change of the state.
     pub(crate) fn modal_change(&self, normal: &Normal, x: &[f64], v: &[f64]) -> ModalChange {
+        let mut change = ModalChange::default();
+        self.modal_change_into(normal, (x, v), &mut RestBuffers::default(), &mut change);
+        change
+    }
+
+    /// The same, in the memory of another change.
+    pub(crate) fn modal_change_into(
+        &self,
+        normal: &Normal,
+        (x, v): (&[f64], &[f64]),
+        buffers: &mut RestBuffers,
+        change: &mut ModalChange,
+    ) {
         let stops = self.stops();
-        let set: Vec<f64> = (0..self.joints)
-            // where a joint holds moves with the state; of others the set point has no effect
-            .map(|joint| match self.states[stops + joint] {
-                ContactState::Holding => dot(&normal.directions[stops + joint], x),
-                _ => 0.0,
-            })
-            .collect();
-        let by_set = |signal: &Signal| dot(&signal.set, &set);
-        let (mut y, mut rate) = (Vec::new(), Vec::new());
-        self.modal(x, v, by_set, &mut RestBuffers::default(), (&mut y, &mut rate));
-        let push = self.drive.iter().map(by_set).collect();
-        ModalChange { y, v: rate, push, set }
+        let ModalChange { y, v: rate, push, set } = change;
+        set.clear();
+        // where a joint holds moves with the state; of others the set point has no effect
+        set.extend((0..self.joints).map(|joint| match self.states[stops + joint] {
+            ContactState::Holding => dot(&normal.directions[stops + joint], x),
+            _ => 0.0,
+        }));
+        let by_set = |signal: &Signal| dot(&signal.set, set);
+        self.modal(x, v, by_set, buffers, (y, rate));
+        push.clear();
+        push.extend(self.drive.iter().map(by_set));
     }
 
     /// The change of a linear function of the state.
@@ -47,15 +70,21 @@ impl Structure {
         dot(&of.position, &change.y) + dot(&of.velocity, &change.v) + dot(&of.signal.set, &change.set)
     }
 
-    /// The change of the modes that belongs to a unit of component `j` of the state.
-    pub(crate) fn unit_change(&self, normal: &Normal, j: usize) -> ModalChange {
-        let n = normal.n;
-        let unit = |from: usize| (0..n).map(|i| if from + i == j { 1.0 } else { 0.0 }).collect::<Vec<f64>>();
-        self.modal_change(normal, &unit(0), &unit(n))
+    /// The changes of the modes that belong to a unit of each component of the state, computed once.
+    pub(crate) fn unit_changes(&self, normal: &Normal) -> &[ModalChange] {
+        self.units.get_or_init(|| {
+            let n = normal.n;
+            let unit = |j: usize| {
+                let mut state = vec![0.0; 2 * n];
+                state[j] = 1.0;
+                self.modal_change(normal, &state[..n], &state[n..])
+            };
+            (0..2 * n).map(unit).collect()
+        })
     }
 
     /// The gradient of a linear function of the state: by coordinates and, after them, by velocities.
     pub(crate) fn gradient(&self, normal: &Normal, of: &Observable) -> Vec<f64> {
-        (0..2 * normal.n).map(|j| self.changed(of, &self.unit_change(normal, j))).collect()
+        self.unit_changes(normal).iter().map(|unit| self.changed(of, unit)).collect()
     }
 }

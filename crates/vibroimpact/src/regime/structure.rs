@@ -1,5 +1,6 @@
 //! The linear structure in one regime: its modes, what drives them, and its guards.
 
+use super::change::ModalChange;
 use super::closed_stop::{ClosedStop, Contact};
 use super::constraints::{Constraints, Sharing};
 use super::contact_state::ContactState;
@@ -70,6 +71,8 @@ pub(crate) struct Structure {
     /// What the search for zeros of guards uses, built when one is searched for: equations of cycles search for none.
     windows: OnceLock<Vec<Window>>,
     sampled: OnceLock<Option<Sampled>>,
+    /// The changes of the modes by each component of the state, for derivatives.
+    pub(super) units: OnceLock<Vec<ModalChange>>,
     /// Whether coordinates and velocities have prescribed parts.
     pub(crate) carries: bool,
     /// Whether these have or gaps of closed stops.
@@ -137,6 +140,7 @@ impl Structure {
             pressing: Vec::new(),
             windows: OnceLock::new(),
             sampled: OnceLock::new(),
+            units: OnceLock::new(),
             carries: false,
             swings: false,
             fastest: 0.0,

@@ -3,11 +3,11 @@
 
 use super::frame::MachineFrame;
 use super::ring::{MachineBlock, MachineRing, Push, RingEvent};
+use crate::arc::MachineFlight;
 use crate::events::{ByNumber, EventLaw, LinearEvent, LinearGuard, Place, standing_back};
 use crate::machine::{MachineParts, StopLaw};
 use crate::math::{Matrix, add_scaled, dot};
 use crate::regime::{ContactState, GuardKind, Orthonormal, Structure};
-use std::sync::Arc;
 
 /// A contact that vanishes may last for a negative time, as a phase up to this: its solutions are not admissible then.
 const BRIEF: f64 = 0.05;
@@ -66,7 +66,7 @@ struct RingFlight<'a> {
     event: &'a RingEvent,
     time: f64,
     from: Place,
-    structure: Arc<Structure>,
+    flight: MachineFlight,
     /// The guards of the structure that are zero at the end, and the rigid stops that push there with their restitution.
     guards: Vec<usize>,
     pushed: Vec<(usize, f64)>,
@@ -89,7 +89,12 @@ impl RingFlight<'_> {
     }
 
     fn law(&self) -> EventLaw<'_> {
-        EventLaw { structure: &self.structure, guards: &self.guards, pushed: &self.pushed, rounds: &self.event.rounds }
+        EventLaw {
+            structure: &self.flight.structure,
+            guards: &self.guards,
+            pushed: &self.pushed,
+            rounds: &self.event.rounds,
+        }
     }
 
     fn miss(&self, frame: &MachineFrame<'_>) -> Vec<f64> {
@@ -124,7 +129,8 @@ impl MachineRing {
             return None;
         }
         let structure = frame.structure(&from.states)?;
-        let before = frame.moved(&from, &structure, time);
+        let flown = from.flight(&frame.normal, structure.clone());
+        let before = frame.moved_in(&flown, &from, time);
         let of = |kind: GuardKind| structure.guards.iter().position(|guard| guard.kind == kind);
         let guards: Vec<usize> = event.guards().map(of).collect::<Option<_>>()?;
         let restitution = |j: usize| match frame.machine.stops()[j].law {
@@ -141,7 +147,7 @@ impl MachineRing {
         let drifts = next == 0 && !frame.normal.translations.is_empty();
         let (to, after) = (self.place(next), before.clone());
         let mut flight =
-            RingFlight { event, time, from, structure, guards, pushed, beside, before, after, to, divisor, drifts };
+            RingFlight { event, time, from, flight: flown, guards, pushed, beside, before, after, to, divisor, drifts };
         flight.after.v = flight.law().rebound(&frame.normal, &flight.before)?;
         let gap = |own: &Beside| flight.timed_by(&[own.guard]).value(&frame.normal, &flight.before);
         let gaps: Vec<f64> = flight.beside.iter().map(gap).collect();
@@ -163,9 +169,13 @@ impl MachineRing {
 
     /// The flight after event `k` and the event at its end to first order.
     pub(crate) fn block(&self, frame: &MachineFrame<'_>, k: usize) -> Option<MachineBlock> {
-        let flight = self.flight(frame, k)?;
+        self.block_of(frame, k, &self.flight(frame, k)?)
+    }
+
+    fn block_of(&self, frame: &MachineFrame<'_>, k: usize, flight: &RingFlight<'_>) -> Option<MachineBlock> {
         let miss = flight.miss(frame);
-        let RingFlight { event, time, from, structure, before, after, .. } = &flight;
+        let RingFlight { event, time, from, before, after, .. } = flight;
+        let structure = &flight.flight.structure;
         let frequency = self.frequency(frame.machine);
         let size = frame.shape.size();
         let next = frame.structure(&event.after)?;
@@ -173,7 +183,7 @@ impl MachineRing {
         let linear = LinearEvent::at(&frame.shape, &frame.normal, &flight.law(), before, (after, &next), &mut other)?;
         let first = linear.guards.first()?;
         let transition = frame.shape.transition(structure, &frame.normal, from, *time);
-        let start = frame.shape.flow(structure, &frame.normal, from);
+        let start = frame.shape.flow_in(&flight.flight, from);
         let mut through = linear.reset.times(&transition);
         // nothing jumps at a touch
         let touched = event.touches(&from.states).then(|| through.clone());
@@ -221,20 +231,29 @@ impl MachineRing {
 
     /// All flights to first order; `None` if one is not defined.
     pub(crate) fn blocks(&self, frame: &MachineFrame<'_>) -> Option<Vec<MachineBlock>> {
-        (0..self.len()).map(|k| self.block(frame, k)).collect()
+        Some(self.with_numbers(frame, &[])?.0)
+    }
+
+    /// The same, and the derivatives of all residuals by numbers of the machine, for the derivatives of its numbers by each one.
+    pub(crate) fn with_numbers(
+        &self,
+        frame: &MachineFrame<'_>,
+        numbers: &[MachineParts],
+    ) -> Option<(Vec<MachineBlock>, Vec<Vec<f64>>)> {
+        let flights: Vec<RingFlight<'_>> = (0..self.len()).map(|k| self.flight(frame, k)).collect::<Option<_>>()?;
+        let blocks =
+            flights.iter().enumerate().map(|(k, flight)| self.block_of(frame, k, flight)).collect::<Option<_>>()?;
+        let by_number = |parts: &MachineParts| {
+            let by = ByNumber::new(frame.machine, &frame.normal, parts);
+            let slopes: Option<Vec<Vec<f64>>> = flights.iter().map(|flight| flight.by_number(frame, &by)).collect();
+            Some(slopes?.concat())
+        };
+        Some((blocks, numbers.iter().map(by_number).collect::<Option<_>>()?))
     }
 
     /// The residuals of the flight after event `k`.
     pub(crate) fn miss(&self, frame: &MachineFrame<'_>, k: usize) -> Option<Vec<f64>> {
         Some(self.flight(frame, k)?.miss(frame))
-    }
-
-    /// The derivatives of all residuals by a number of the machine, for the derivatives `parts` of its numbers by that one.
-    pub(crate) fn by_number(&self, frame: &MachineFrame<'_>, parts: &MachineParts) -> Option<Vec<f64>> {
-        let by = ByNumber::new(frame.machine, &frame.normal, parts);
-        let slopes: Option<Vec<Vec<f64>>> =
-            (0..self.len()).map(|k| self.flight(frame, k)?.by_number(frame, &by)).collect();
-        Some(slopes?.concat())
     }
 }
 
@@ -242,7 +261,7 @@ impl RingFlight<'_> {
     /// The derivatives of the residuals by a number.
     fn by_number(&self, frame: &MachineFrame<'_>, by: &ByNumber<'_>) -> Option<Vec<f64>> {
         let law = self.law();
-        let flown = by.flown(&frame.shape, &self.structure, (&self.from, &self.before), self.time)?;
+        let flown = by.flown(&frame.shape, &self.flight, (&self.from, &self.before), self.time)?;
         let mut guard = by.guard(&law, &self.before, &flown)? / self.divisor;
         // the time depends on the number too, if this is the frequency
         if self.divisor == self.time {

@@ -1,7 +1,7 @@
 //! A machine together with what its motions need again and again: mass-normalised coordinates and the structures of its
 //! regimes.
 
-use crate::arc::Modes;
+use crate::arc::{MachineFlight, Modes};
 use crate::events::{Limits, Metric, Motion, Place, StateShape, Structures};
 use crate::machine::Machine;
 use crate::math::{Matrix, add_scaled, dot};
@@ -90,11 +90,15 @@ impl<'a> MachineFrame<'a> {
 
     /// The state a time `s` later in the regime of `structure`.
     pub(crate) fn moved(&self, place: &Place, structure: &Arc<Structure>, s: f64) -> Place {
-        let flight = place.flight(&self.normal, structure.clone());
+        self.moved_in(&place.flight(&self.normal, structure.clone()), place, s)
+    }
+
+    /// The same, in the flight that begins at this state.
+    pub(crate) fn moved_in(&self, flight: &MachineFlight, place: &Place, s: f64) -> Place {
         let mut moved = place.clone();
         let mut modes = Modes::default();
         flight.at(s, &mut modes);
-        moved.move_along(&flight, (&modes, s), self.machine.parts().frequency);
+        moved.move_along(flight, (&modes, s), self.machine.parts().frequency);
         moved
     }
 

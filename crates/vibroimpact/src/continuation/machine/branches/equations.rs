@@ -76,7 +76,8 @@ impl<const N: usize> MachineEquations<N> {
         ring: &MachineRing,
         w: &[f64],
     ) -> Option<(Vec<f64>, Vec<f64>)> {
-        let blocks = ring.blocks(frame)?;
+        let rates = self.family.rates(Self::numbers(w), self.scales)?;
+        let (blocks, slopes) = ring.with_numbers(frame, &rates)?;
         let length = w.len();
         let mut rows = vec![0.0; length * length];
         ring.fill(&mut rows, length, &blocks, 1.0);
@@ -90,8 +91,8 @@ impl<const N: usize> MachineEquations<N> {
                 miss[((k + m - 1) % m) * width + place] -= w[k * width + place];
             }
         }
-        for (k, rate) in self.family.rates(Self::numbers(w), self.scales)?.iter().enumerate() {
-            for (row, slope) in ring.by_number(frame, rate)?.into_iter().enumerate() {
+        for (k, slopes) in slopes.into_iter().enumerate() {
+            for (row, slope) in slopes.into_iter().enumerate() {
                 rows[row * length + length - N + k] = slope;
             }
         }
@@ -322,7 +323,7 @@ mod tests {
                 let (family, _) = Family::of_path(&machine, &path).unwrap();
                 // without springs another stiffness is not allowed
                 let Some(rates) = family.rates([value], [1.0]) else { continue };
-                let exact = ring.by_number(&frame, &rates[0]).unwrap();
+                let exact = ring.with_numbers(&frame, &rates[..1]).unwrap().1.remove(0);
                 let at = |h: f64| {
                     let machine = family.at(value + h)?;
                     Some(misses(&ring.with(&machine, &unknowns), &MachineFrame::new(&machine)))
