@@ -174,7 +174,6 @@ fn killed_sweep(folder: &Folder, values: u32) -> (u32, usize) {
         assert!(kills < 40, "it does not get on");
     }
     assert!(folder.files(&format!("{killed}.zarr")) == want, "{values} values, {kills} kills");
-    println!("{values} values: {kills} kills, {parts} with parts");
     (kills, parts)
 }
 
