@@ -28,11 +28,14 @@ impl Faults {
     }
 }
 
-/// Everyday few points of some machines; with `VIBROIMPACT_LONG=1` fifty of all, which takes an hour.
+/// Everyday few points of some machines; with `VIBROIMPACT_LONG=1` fifty of all, which takes an hour, or of the one that
+/// `VIBROIMPACT_MACHINE` names.
 fn cases() -> impl Iterator<Item = (MachineSource, usize)> {
     let long = std::env::var("VIBROIMPACT_LONG").is_ok();
     let few = ["two-mass-hammer", "sdnd106"];
-    let names = CATALOGUE.iter().map(|entry| entry.name).filter(move |name| long || few.contains(name));
+    let only = std::env::var("VIBROIMPACT_MACHINE").ok();
+    let taken = move |name: &&str| only.as_ref().map_or(long || few.contains(name), |only| only == name);
+    let names = CATALOGUE.iter().map(|entry| entry.name).filter(taken);
     names.map(move |name| {
         if long {
             eprintln!("{name}");

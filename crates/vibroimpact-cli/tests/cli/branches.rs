@@ -345,3 +345,16 @@ fn f11_between_close_events_the_stability_is_known() {
         assert_eq!(states.len(), 2, "{row}");
     }
 }
+
+/// From 1/1 through 17/1 to the complete chatter: more labels than the legend names, which names those with the longest ranges.
+#[test]
+fn the_legend_names_the_longest_of_many_labels() {
+    let folder = Folder::new();
+    let line = "branch --inverse-beta 1.11 --gap 1 --restitution 0.5 --label 1/1 --vary gap --to -1";
+    folder.printed(&format!("{line} --plot branch.svg"));
+    let figure = folder.read("branch.svg");
+    for text in [">1/1<", ">2/1<", ">∞/1<", " others<"] {
+        assert!(figure.contains(text), "{text}");
+    }
+    assert!(!figure.contains(">17/1<"));
+}

@@ -26,7 +26,7 @@ const MARK: f64 = 12.0;
 const SMALL_MARK: f64 = 7.0;
 /// Number of marks above which they are small.
 const MANY: usize = 40;
-/// Maximum number of labels with a colour of their own.
+/// Maximum number of labels in the legend.
 const NAMED: usize = 12;
 /// Colour of the other labels.
 const OTHERS: Colour = Colour::hex(0x50_5050);
@@ -135,21 +135,31 @@ pub(super) fn of_motion(label: &str) -> bool {
     legend_group(label) != "other"
 }
 
-/// A colour for each label, in the order of first appearance on the branches: that of the motion on maps, or one of a
-/// series for the labels of machines.
+/// A colour for each label: that of the motion on maps, or one of a series for the labels of machines. First are the labels that
+/// the legend names, those with the longest ranges, in the order of first appearance on the branches; the others follow.
 fn colours(tracks: &[Track]) -> Vec<(String, Colour)> {
-    let mut labels: Vec<String> = Vec::new();
-    for point in tracks.iter().flat_map(|track| &track.points) {
-        if !labels.contains(&point.label) {
-            labels.push(point.label.clone());
+    let mut labels: Vec<(String, f64)> = Vec::new();
+    for points in tracks.iter().map(|track| &track.points) {
+        for (k, point) in points.iter().enumerate() {
+            let before = k.checked_sub(1).map(|k| &points[k]).filter(|before| before.label == point.label);
+            let way = before.map_or(0.0, |before| (point.value - before.value).abs());
+            match labels.iter_mut().find(|(label, _)| *label == point.label) {
+                Some((_, range)) => *range += way,
+                None => labels.push((point.label.clone(), way)),
+            }
         }
     }
+    let mut ranges: Vec<f64> = labels.iter().map(|(_, range)| *range).collect();
+    ranges.sort_by(|a, b| b.total_cmp(a));
+    let least = ranges.get(NAMED - 1).copied().unwrap_or(0.0);
+    let (named, others): (Vec<_>, Vec<_>) = labels.into_iter().partition(|(_, range)| *range >= least);
     let colour = |k: usize, label: &str| match k {
         _ if of_motion(label) => class_style(label).colour,
         k if k < NAMED => series(k),
         _ => OTHERS,
     };
-    labels.into_iter().enumerate().map(|(k, label)| (label.clone(), colour(k, &label))).collect()
+    let all = named.into_iter().chain(others).enumerate();
+    all.map(|(k, (label, _))| (label.clone(), colour(k, &label))).collect()
 }
 
 /// The marks of events, by kind.

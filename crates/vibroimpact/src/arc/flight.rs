@@ -115,13 +115,13 @@ const SHORT_REACH: f64 = 0.25;
 
 impl MachineFlight {
     /// The flight from a mass-normalised state. `set` are the set points of joints, `turns` sine and cosine of each
-    /// harmonic at the beginning, `gap` tells of the gap of a stop, and `known` how
-    /// many derivatives of a guard are zero, and how its surface recovers.
+    /// harmonic at the beginning, `gap` tells of the gap of a stop, and `known` how many derivatives of a guard are zero, and how
+    /// its surface recovers; without it the flight has no guards, for states and rates alone.
     pub(crate) fn new(
         structure: Arc<Structure>,
         begin: Begin<'_>,
         gap: impl Fn(usize) -> GapStart,
-        known: impl Fn(GuardKind) -> (usize, Option<Recovery>),
+        known: Option<impl Fn(GuardKind) -> (usize, Option<Recovery>)>,
     ) -> Self {
         let mut flight = Self {
             drive: Drive::of_structure(&structure),
@@ -153,25 +153,56 @@ impl MachineFlight {
             self.drive.become_of(&structure);
             self.structure = structure;
         }
-        self.begin(begin, gap, known);
+        self.begin(begin, gap, Some(known));
     }
 
     fn begin(
         &mut self,
         Begin { x, v: rate, set, turns }: Begin<'_>,
         gap: impl Fn(usize) -> GapStart,
-        known: impl Fn(GuardKind) -> (usize, Option<Recovery>),
+        known: Option<impl Fn(GuardKind) -> (usize, Option<Recovery>)>,
     ) {
         let structure = &self.structure;
         let value_of = |signal: &Signal| signal.steady(set) + signal.swing(turns);
         structure.modal(x, rate, value_of, &mut self.rest, (&mut self.origin, &mut self.v));
-        let (y, v) = (&self.origin, &self.v);
         self.gaps.clear();
         for closed in &structure.closed {
             self.gaps.push(gap(closed.place));
         }
         self.guards.clear();
         self.harmonics.clear();
+        if let Some(known) = known {
+            self.begin_guards(gap, known, (set, turns));
+        }
+        let structure = &self.structure;
+        let drive = &mut self.drive;
+        // the harmonics drive the modes apart from this: of walls that swing the force has the mean place
+        let gaps = self.gaps.iter().map(|closed| closed.gap - closed.swing);
+        structure.rest_force(x, rate, turns, gaps, &mut self.rest, &mut drive.steady);
+        drive.harmonics.clear();
+        for signal in &structure.drive {
+            drive.harmonics.extend(signal.turned(turns));
+        }
+        self.x.clear();
+        self.x.extend_from_slice(x);
+        self.rate.clear();
+        self.rate.extend_from_slice(rate);
+        self.set.clear();
+        self.set.extend_from_slice(set);
+        self.turns.clear();
+        self.turns.extend_from_slice(turns);
+    }
+
+    /// The guards at the beginning.
+    #[inline]
+    fn begin_guards(
+        &mut self,
+        gap: impl Fn(usize) -> GapStart,
+        known: impl Fn(GuardKind) -> (usize, Option<Recovery>),
+        (set, turns): (&[f64], &[(f64, f64)]),
+    ) {
+        let (structure, y, v) = (&self.structure, &self.origin, &self.v);
+        let value_of = |signal: &Signal| signal.steady(set) + signal.swing(turns);
         for guard in &structure.guards {
             let (known, recovery) = known(guard.kind);
             let function = &guard.function;
@@ -230,22 +261,6 @@ impl MachineFlight {
             };
             self.guards.push(GuardStart { value, size, constant: value - moving, known, sharp, recovery });
         }
-        let drive = &mut self.drive;
-        // the harmonics drive the modes apart from this: of walls that swing the force has the mean place
-        let gaps = self.gaps.iter().map(|closed| closed.gap - closed.swing);
-        structure.rest_force(x, rate, turns, gaps, &mut self.rest, &mut drive.steady);
-        drive.harmonics.clear();
-        for signal in &structure.drive {
-            drive.harmonics.extend(signal.turned(turns));
-        }
-        self.x.clear();
-        self.x.extend_from_slice(x);
-        self.rate.clear();
-        self.rate.extend_from_slice(rate);
-        self.set.clear();
-        self.set.extend_from_slice(set);
-        self.turns.clear();
-        self.turns.extend_from_slice(turns);
     }
 
     /// A guard at the beginning, and the size of its terms.

@@ -374,7 +374,7 @@ mod tests {
                 let way: f64 = w.iter().zip(&x).map(|(w, x)| w * x).sum();
                 GapStart { gap: wall - way, size: wall.abs() + way.abs(), swing: 0.0, sharp: false }
             };
-            let flight = MachineFlight::new(structure.clone(), begin, gap, known);
+            let flight = MachineFlight::new(structure.clone(), begin, gap, Some(known));
             let mut buffers = Buffers::default();
             let crossing = plain_crossing(&flight, 30.0, 100, &mut buffers.sampling, &mut buffers.modes);
             let modes = buffers.modes.clone();

@@ -28,7 +28,7 @@ impl ByNumber<'_> {
     pub(crate) fn guard(&self, law: &EventLaw<'_>, before: &Place, change: &StateChange) -> Option<f64> {
         let (structure, stops) = (law.structure, self.machine.stops().len());
         let mut seen = Seen::default();
-        let flight = before.flight(self.normal, structure.clone());
+        let flight = before.unguarded_flight(self.normal, structure.clone());
         let at = seen.at(&flight, 0.0, 0.0, &before.x);
         let moved = (&change.x[..], &change.v[..]);
         // the reaction of a constraint, and of the limits of joints that share its load

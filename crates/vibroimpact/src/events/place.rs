@@ -136,7 +136,14 @@ impl Place {
     pub(crate) fn flight(&self, normal: &Normal, structure: Arc<Structure>) -> MachineFlight {
         let mut scratch = Scratch::default();
         let (begin, gap, known) = self.begin(normal, &mut scratch);
-        MachineFlight::new(structure, begin, gap, known)
+        MachineFlight::new(structure, begin, gap, Some(known))
+    }
+
+    /// The same without its guards, for states and rates alone.
+    pub(crate) fn unguarded_flight(&self, normal: &Normal, structure: Arc<Structure>) -> MachineFlight {
+        let mut scratch = Scratch::default();
+        let (begin, gap, _) = self.begin(normal, &mut scratch);
+        MachineFlight::new(structure, begin, gap, None::<fn(GuardKind) -> (usize, Option<Recovery>)>)
     }
 
     /// The same in the place of another flight; without a structure, in the regime of that.

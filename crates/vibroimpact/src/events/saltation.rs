@@ -88,7 +88,7 @@ impl StateShape {
 
     /// The rate of the state at `place`, in the regime of `structure`.
     pub(crate) fn flow(&self, structure: &Arc<Structure>, normal: &Normal, place: &Place) -> Vec<f64> {
-        self.flow_in(&place.flight(normal, structure.clone()), place)
+        self.flow_in(&place.unguarded_flight(normal, structure.clone()), place)
     }
 
     /// The rate of the state at `place`, at which a flight begins.
@@ -147,7 +147,7 @@ impl EventLaw<'_> {
 
     fn value_and_rate_of(&self, guard: usize, normal: &Normal, at: &Place) -> (f64, f64) {
         let guard = &self.structure.guards[guard];
-        let (value, rate) = at.flight(normal, self.structure.clone()).first(&guard.function);
+        let (value, rate) = at.unguarded_flight(normal, self.structure.clone()).first(&guard.function);
         match guard.kind {
             // the surface stands between the wall and the coordinates, and its rate is part of the gap's
             GuardKind::Gap(j) => at.surfaces[j].map_or((value, rate), |surface| {

@@ -53,7 +53,7 @@ impl Motion<'_> {
             if !changes || timed.contains(&at) {
                 continue;
             }
-            let (value, rate) = before.flight(&self.normal, structure.clone()).first(&guard.function);
+            let (value, rate) = before.unguarded_flight(&self.normal, structure.clone()).first(&guard.function);
             if rate < 0.0 && value.abs() * fastest <= TOGETHER * -rate {
                 passage.guards.push(g);
             }

@@ -98,7 +98,7 @@ impl Chatter {
         frame.constrain(&mut place)?;
         let structure = frame.structure(&place.states)?;
         let held = structure.held.iter().position(|held| *held == self.stop)?;
-        let (force, rate) = place.flight(&frame.normal, structure.clone()).first(&structure.reactions[held]);
+        let (force, rate) = place.unguarded_flight(&frame.normal, structure.clone()).first(&structure.reactions[held]);
         let mobility = structure.mobility[held].0;
         Some(Rebound { speed, a: force * mobility, jerk: -rate * mobility })
     }

@@ -129,7 +129,7 @@ impl MachineRing {
             return None;
         }
         let structure = frame.structure(&from.states)?;
-        let flown = from.flight(&frame.normal, structure.clone());
+        let flown = from.unguarded_flight(&frame.normal, structure.clone());
         let before = frame.moved_in(&flown, &from, time);
         let of = |kind: GuardKind| structure.guards.iter().position(|guard| guard.kind == kind);
         let guards: Vec<usize> = event.guards().map(of).collect::<Option<_>>()?;

@@ -90,7 +90,7 @@ impl<'a> MachineFrame<'a> {
 
     /// The state a time `s` later in the regime of `structure`.
     pub(crate) fn moved(&self, place: &Place, structure: &Arc<Structure>, s: f64) -> Place {
-        self.moved_in(&place.flight(&self.normal, structure.clone()), place, s)
+        self.moved_in(&place.unguarded_flight(&self.normal, structure.clone()), place, s)
     }
 
     /// The same, in the flight that begins at this state.

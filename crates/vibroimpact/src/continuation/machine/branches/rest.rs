@@ -61,7 +61,7 @@ impl Limit {
 fn pressed(frame: &MachineFrame<'_>, place: &Place, guard: GuardKind) -> Option<Pressed> {
     let structure = frame.structure(&place.states)?;
     let function = &structure.guards.iter().find(|of| of.kind == guard)?.function;
-    let flight = place.flight(&frame.normal, structure.clone());
+    let flight = place.unguarded_flight(&frame.normal, structure.clone());
     let (value, rate) = flight.first(function);
     Some(Pressed { value, rate, size: flight.size(function).max(f64::MIN_POSITIVE) })
 }

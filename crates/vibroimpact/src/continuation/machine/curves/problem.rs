@@ -166,7 +166,7 @@ impl CurveProblem {
                 let place = ring.place(touch);
                 let structure = frame.structure(&place.states)?;
                 let rate = structure.gap(&frame.normal, stop).1;
-                let mut pull = place.flight(&frame.normal, structure).first(&rate).1;
+                let mut pull = place.unguarded_flight(&frame.normal, structure).first(&rate).1;
                 // the second derivative of the surface, a kappa^2 e^{-kappa t}
                 if let Some(surface) = place.surfaces[stop] {
                     pull += surface.rate * surface.rate * surface.size;
