@@ -47,9 +47,6 @@ fn the_export_of_the_page_is_the_figure_of_its_command() {
     for (query, plan, flags, parts) in [
         ("layers=stripes", &plain, "", &[][..]),
         ("layers=", &plain, "--layers none", &[]),
-        ("layers=stripes,amplitude", &plain, "--layers amplitude,stripes", &["#8c1d18"]),
-        ("layers=paper,stripes", &plain, "--layers paper,stripes", &[">T<"]),
-        ("layers=boundaries", &plain, "--layers boundaries", &[]),
         ("mark=1.3,1", &plain, "--mark 1.3,1", &[]),
         ("layers=stripes&line=1.1,1.5,1.1,2.5", &plain, "--line 1.1,1.5:1.1,2.5", &["#b5221b"]),
         // what cannot be seen is in neither
@@ -58,7 +55,7 @@ fn the_export_of_the_page_is_the_figure_of_its_command() {
             "layers=paper,stripes,regions,amplitude,boundaries&mark=1.3,1&line=0.5,-1,1.1,2.5",
             &plain,
             "--layers regions,amplitude,paper,stripes,boundaries --mark 1.3,1 --line 0.5,-1:1.1,2.5",
-            &[r##"stroke="#ffffff" stroke-width="3.6""##, "#b5221b"],
+            &[r##"stroke="#ffffff" stroke-width="3.6""##, "#b5221b", "#8c1d18", ">T<"],
         ),
         (
             "layers=paper,stripes&mark=1.3,1&colour=power",

@@ -74,8 +74,9 @@ fn an_elliptic_family_is_neutral() {
     assert_eq!(texts(&answer["branches"][0]["events"], "kind"), ["end of range"]);
     let count = format!(", {} points\n", points.len());
     let head = "branch 1: 2/1 (orbit 2 of 2, neutral there), eps from ";
-    has(&folder.printed(branch), &[head, &count, ", 2/1 neutral: end of range\n"]);
-    let figure = folder.drawn(&format!("{branch} --csv branch.csv"), "branch.svg");
+    let text = folder.printed(&format!("{branch} --csv branch.csv --plot branch.svg"));
+    has(&text, &[head, &count, ", 2/1 neutral: end of range\n"]);
+    let figure = folder.read("branch.svg");
     assert!(column(&folder.read("branch.csv"), "stability").iter().all(|word| word == "neutral"));
     assert!(figure.contains(">neutral<") && !figure.contains(">stable<"));
 }

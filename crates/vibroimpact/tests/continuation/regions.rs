@@ -196,7 +196,8 @@ fn across_a_frequency_of_whole_natural_periods() {
     let over = |p, q| Frame { plane: (Parameter::InverseBeta, Parameter::Gap).into(), ranges: (p, q) };
     let label = Label::new(2, 1);
     Case { osc, label, frame: over(0.4..=2.4, -1.0..=5.0) }.check(RegionKind::Stability, 60);
-    for kind in [RegionKind::Existence, RegionKind::Stability] {
+    // the region of existence has fewer edges, so the other one says more
+    for kind in [RegionKind::Stability, RegionKind::Existence].into_iter().take(if is_long() { 2 } else { 1 }) {
         Case { osc, label, frame: over(1.8..=2.3, 0.5..=1.2) }.check(kind, 60);
     }
 }
