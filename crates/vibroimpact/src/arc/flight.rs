@@ -169,12 +169,6 @@ impl MachineFlight {
         for closed in &structure.closed {
             self.gaps.push(gap(closed.place));
         }
-        self.guards.clear();
-        self.harmonics.clear();
-        if let Some(known) = known {
-            self.begin_guards(gap, known, (set, turns));
-        }
-        let structure = &self.structure;
         let drive = &mut self.drive;
         // the harmonics drive the modes apart from this: of walls that swing the force has the mean place
         let gaps = self.gaps.iter().map(|closed| closed.gap - closed.swing);
@@ -191,17 +185,22 @@ impl MachineFlight {
         self.set.extend_from_slice(set);
         self.turns.clear();
         self.turns.extend_from_slice(turns);
+        self.guards.clear();
+        self.harmonics.clear();
+        if let Some(known) = known {
+            self.begin_guards(gap, known);
+        }
     }
 
-    /// The guards at the beginning.
+    /// The guards at the beginning, whose state is known.
     #[inline]
     fn begin_guards(
         &mut self,
         gap: impl Fn(usize) -> GapStart,
         known: impl Fn(GuardKind) -> (usize, Option<Recovery>),
-        (set, turns): (&[f64], &[(f64, f64)]),
     ) {
         let (structure, y, v) = (&self.structure, &self.origin, &self.v);
+        let (set, turns) = (&self.set, &self.turns);
         let value_of = |signal: &Signal| signal.steady(set) + signal.swing(turns);
         for guard in &structure.guards {
             let (known, recovery) = known(guard.kind);
