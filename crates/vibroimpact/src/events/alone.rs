@@ -25,7 +25,9 @@ impl Motion<'_> {
                 let square = self.normal.squares[j];
                 match self.machine.stops()[j].law {
                     StopLaw::Rigid { restitution } => {
-                        if restitution * speed <= 0.0 {
+                        // the impact can end a contact elsewhere
+                        let presses = self.place.states.contains(&ContactState::Closed);
+                        if restitution * speed <= 0.0 || presses {
                             return false;
                         }
                         // on the stop exactly, without the rounding error of the time

@@ -4,6 +4,7 @@ use super::advance::FAINT;
 use super::event::{End, EventKind};
 use super::motion::Motion;
 use super::resolve::{Resolution, Resolved};
+use crate::machine::{Opening, StopLaw};
 use crate::regime::{ContactState, GuardKind, compliant};
 
 /// An event to announce: its kind, its place, its speed, and the other stops of an impact.
@@ -48,6 +49,9 @@ impl Motion<'_> {
         self.meet(&soft, before, sizes.as_deref(), &turns, &mut candidates);
         self.silenced |= self.instants.silence(&mut self.place.x, &mut self.place.v, 1);
         self.touch_faintly(&soft, &turns, &mut candidates);
+        if sizes.is_some() {
+            self.let_go(&turns);
+        }
         self.add_candidates(before, &turns, &mut candidates);
         if !candidates.is_empty() {
             self.resolve(&candidates, ended)?;
@@ -72,6 +76,24 @@ impl Motion<'_> {
             self.after_impacts(&turns);
         }
         Some(())
+    }
+
+    /// Opens the compliant stops whose dampers would pull after an impact elsewhere has changed their velocity. They open with the
+    /// impact, so neighbours of the motion open them earlier or later by what the stop that was struck says, not by their force.
+    fn let_go(&mut self, turns: &[(f64, f64)]) {
+        for (j, stop) in self.machine.stops().iter().enumerate() {
+            let StopLaw::Compliant { stiffness, damping, preload, opening: Opening::Force } = stop.law else {
+                continue;
+            };
+            if self.place.states[j] != ContactState::Closed {
+                continue;
+            }
+            let (gap, rate) = self.place.gap_and_rate(&self.normal, turns, j);
+            let gap = self.place.sharp_gap(j).unwrap_or(gap);
+            if preload - stiffness * gap < damping * rate {
+                self.place.open(&stop.law, GuardKind::Force(j), j, (gap, rate));
+            }
+        }
     }
 
     fn closing_speed(&self, stop: usize, turns: &[(f64, f64)]) -> f64 {

@@ -780,6 +780,45 @@ mod tests {
         }
     }
 
+    /// A body strikes a wall while another one presses on it through a damper, whose force becomes a pull with the impact: this contact
+    /// ends at the time of the impact, however deep it is, and its surface stands back.
+    #[test]
+    fn an_impact_that_ends_a_contact() {
+        let pad = StopLaw::Compliant { stiffness: 15.0, damping: 0.9, preload: 0.0, opening: Opening::Force };
+        let parts = MachineParts::new(["a", "b"]).with_mass(0, 1.0).with_mass(1, 0.7).with_link(&[1.0, 0.0], 2.0, 0.1);
+        let parts = parts.with_rigid_stop("wall", &[-1.0, 0.0], 0.2, 0.8).with_stop("pad", &[-1.0, 1.0], 0.05, pad);
+        let machine = Machine::new(parts).unwrap();
+        let start = |change: &[f64]| Start {
+            q: change[..2].to_vec(),
+            qdot: vec![change[2] - 1.0, change[3] - 0.5],
+            ..Start::default()
+        };
+        let motion = Motion::new(&machine, &start(&[0.0; 4]), Limits::default()).unwrap();
+        let events: Vec<_> = motion.take(3).map(|event| (event.kind, event.place)).collect();
+        assert_eq!(events, [(EventKind::Close, 1), (EventKind::Impact, 0), (EventKind::Open, 1)]);
+        let at = |change: &[f64]| flown(&machine, &start(change), 0.25).unwrap();
+        let normal = Normal::new(&machine);
+        let (_, derivative, kinds) = at(&[0.0; 4]);
+        assert_eq!(kinds.len(), 2);
+        let h = 1e-6;
+        for j in 0..4 {
+            let mut change = [0.0; 4];
+            change[j] = h;
+            let plus = at(&change).0;
+            change[j] = -h;
+            let minus = at(&change).0;
+            let mut unit = vec![0.0; 2];
+            unit[j % 2] = 1.0;
+            let mut direction = vec![0.0; 5];
+            direction[j / 2 * 2..j / 2 * 2 + 2].copy_from_slice(&normal.to_normal(&unit));
+            let exact = derivative.apply(&direction);
+            for i in 0..5 {
+                let difference = (plus[i] - minus[i]) / (2.0 * h);
+                assert!((difference - exact[i]).abs() < 1e-8, "{j} {i}: {difference} {}", exact[i]);
+            }
+        }
+    }
+
     /// The derivative over many events against central differences, for every kind of event.
     #[test]
     fn differences() {
