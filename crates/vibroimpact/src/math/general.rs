@@ -4,7 +4,7 @@
 //! eigenvalues are split off at the end one by one, with Wilkinson's shift. Complex numbers cost twice the work of
 //! Francis's double shift, which does not matter for matrices of the size of machines.
 
-use super::{Complex, Matrix, Multiplier};
+use super::{Complex, Lu, Matrix, Multiplier, dot};
 use crate::math::sort_by;
 
 /// The largest number of QR steps for one eigenvalue; two or three usually suffice.
@@ -203,6 +203,27 @@ fn paired(found: &[Complex], size: f64) -> Vec<Multiplier> {
         }
     }
     all
+}
+
+/// The direction of length 1 that a matrix multiplies by this real eigenvalue, by inverse iteration.
+pub(crate) fn eigenvector(matrix: &Matrix, value: f64) -> Option<Vec<f64>> {
+    let size = matrix.rows();
+    let mut shifted = matrix.clone();
+    for i in 0..size {
+        // beside the eigenvalue, so that the matrix is not singular
+        shifted[(i, i)] -= value * (1.0 + 1e-9);
+    }
+    let lu = Lu::new(shifted.values().to_vec(), size)?;
+    let mut vector: Vec<f64> = (0..size).map(|i| if i % 2 == 0 { 1.0 } else { 0.7 }).collect();
+    for _ in 0..3 {
+        lu.solve(&mut vector);
+        let length = dot(&vector, &vector).sqrt();
+        if !(length > 0.0 && length.is_finite()) {
+            return None;
+        }
+        vector.iter_mut().for_each(|x| *x /= length);
+    }
+    Some(vector)
 }
 
 #[cfg(test)]

@@ -26,7 +26,7 @@ pub use dense::Matrix;
 pub(crate) use dense::{add_scaled, dot, fit};
 pub(crate) use exact::{Wide, two_prod, two_sum};
 pub(crate) use gauss::{Gauss, POINTS, RULE};
-pub(crate) use general::general_eigenvalues;
+pub(crate) use general::{eigenvector, general_eigenvalues};
 pub(crate) use graded::{Graded, GradedFactors};
 pub(crate) use lane::{Lane, Mask, Numbers, Single, turned};
 pub(crate) use least::change_along;

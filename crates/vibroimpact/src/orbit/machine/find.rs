@@ -3,12 +3,13 @@
 use super::border::on_border;
 use super::cycle::Cycle;
 use super::frame::MachineFrame;
+use super::lap::MachineLap;
 use super::near_returns::near_returns;
 use super::reduced::orbits;
 use crate::events::{Motion, Place, Start};
 use crate::machine::Machine;
-use crate::math::sort_by;
-use crate::orbit::Label;
+use crate::math::{add_scaled, eigenvector, sort_by};
+use crate::orbit::{Label, Stability};
 
 /// The forcing periods after which a motion is a guess.
 const AFTER: [f64; 4] = [1.0, 4.0, 16.0, 60.0];
@@ -19,13 +20,16 @@ const EVENTS: usize = 20_000;
 
 /// The largest number of stable orbits between which further guesses lie.
 const BETWEEN: usize = 4;
+/// The largest number of unstable orbits that motions leave, and how far from the orbit these begin, in its size.
+const LEFT: usize = 8;
+const ASIDE: f64 = 1e-2;
 
 /// The orbits of `machine` with the label `label` to which Newton's method leads from the motions from `starts`, the fastest
 /// last; stopped when `go_on` returns false, and then `None`. A start that is not allowed is passed over.
 ///
 /// Further guesses lie on the border between the motions that lead to two stable orbits of as many forcing periods, whatever
-/// their number of impacts. Without forcing the guesses are motions that come close to an earlier state, also those
-/// on the border. An orbit to which no guess leads is not found.
+/// their number of impacts, and on the motions that leave an unstable orbit to either side. Without forcing the guesses are motions
+/// that come close to an earlier state, also those on the border. An orbit to which no guess leads is not found.
 ///
 /// The orbits of a machine that is an [oscillator](Machine::reduced) are those that [`find_while`](crate::orbit::find_while)
 /// finds; `starts` are not used then.
@@ -59,6 +63,16 @@ pub fn find_unreduced(
     let stable: Vec<Cycle> = search.known.iter().filter(|cycle| cycle.stable()).take(BETWEEN).cloned().collect();
     for (i, j) in (0..stable.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
         search.between((&stable[i], &stable[j]))?;
+    }
+    let unstable = search
+        .known
+        .iter()
+        .filter(|cycle| cycle.stability() == Stability::Unstable)
+        .take(LEFT)
+        .cloned()
+        .collect::<Vec<_>>();
+    for cycle in unstable {
+        search.leave(&cycle)?;
     }
     let mut found = search.known;
     found.retain(|cycle| cycle.label == label);
@@ -105,6 +119,24 @@ impl Search<'_> {
             return guesses.into_iter().next().map(resumed).map_or(Some(()), |motion| self.follow(motion));
         }
         guesses.iter().try_for_each(|guess| self.learn_near(guess))
+    }
+
+    /// Adds the cycles to which the motions lead that leave an unstable one to either side: near a fold this is often the stable one,
+    /// whose basin is small.
+    fn leave(&mut self, cycle: &Cycle) -> Option<()> {
+        let begin = cycle.strobes.first();
+        let outwards = cycle.multipliers.iter().find(|multiplier| multiplier.im == 0.0 && multiplier.modulus() > 1.0);
+        let Some((begin, outwards)) = begin.zip(outwards) else { return Some(()) };
+        let time = self.frame.time(cycle.label.periods, cycle.period);
+        let turn = MachineLap::fly(self.frame, begin, time).and_then(|lap| lap.derivative);
+        let Some(direction) = turn.and_then(|turn| eigenvector(&turn, outwards.re)) else { return Some(()) };
+        let size = cycle.sizes.0.max(cycle.sizes.1);
+        for side in [ASIDE, -ASIDE] {
+            let mut values = self.frame.shape.values(begin);
+            add_scaled(&mut values, side * size, &direction);
+            self.follow(self.frame.resume(self.frame.shape.with_values(begin, &values)))?;
+        }
+        Some(())
     }
 
     fn learn_near(&mut self, guess: &Place) -> Option<()> {

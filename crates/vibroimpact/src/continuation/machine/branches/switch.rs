@@ -8,7 +8,7 @@
 use super::family::Family;
 use super::point::SolutionPoint;
 use crate::continuation::event::BranchEvent;
-use crate::math::{Lu, Matrix, dot};
+use crate::math::eigenvector;
 use crate::orbit::{MachineFrame, MachineLap, machine::Cycle};
 
 /// Changes of the number, in units of the scale, at which the cycle is searched for.
@@ -38,7 +38,7 @@ impl SolutionPoint {
             let turn = MachineLap::fly(&frame, begin, time)?.derivative?;
             // one period multiplies translations, and without forcing the direction along the motion, by +1 too
             let turn = if multiplier > 0.0 { frame.within_cycles(turn, begin) } else { turn };
-            carried(&turn, multiplier)
+            eigenvector(&turn, multiplier)
         });
         let Some(direction) = direction else { return Vec::new() };
         let turns = if multiplier < 0.0 { 2 } else { 1 };
@@ -87,25 +87,4 @@ impl SolutionPoint {
         }
         None
     }
-}
-
-/// The direction that a matrix multiplies by this eigenvalue, of length 1, by inverse iteration.
-fn carried(turn: &Matrix, multiplier: f64) -> Option<Vec<f64>> {
-    let size = turn.rows();
-    let mut shifted = turn.clone();
-    for i in 0..size {
-        // beside the eigenvalue, so that the matrix is not singular
-        shifted[(i, i)] -= multiplier * (1.0 + 1e-9);
-    }
-    let lu = Lu::new(shifted.values().to_vec(), size)?;
-    let mut vector: Vec<f64> = (0..size).map(|i| if i % 2 == 0 { 1.0 } else { 0.7 }).collect();
-    for _ in 0..3 {
-        lu.solve(&mut vector);
-        let length = dot(&vector, &vector).sqrt();
-        if !(length > 0.0 && length.is_finite()) {
-            return None;
-        }
-        vector.iter_mut().for_each(|x| *x /= length);
-    }
-    Some(vector)
 }
