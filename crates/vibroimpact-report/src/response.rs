@@ -5,7 +5,7 @@ use vibroimpact::machine::Machine;
 use vibroimpact::quantities::machine_quantity;
 use vibroimpact_plot::plain;
 use vibroimpact_study::{
-    Name, Parameter, PlanError, Quantity, ResponseCurves, ResponsePlan, ResponseRow, Values, Variable, quantity_path,
+    Name, Parameter, PlanError, Quantity, ResponseCurves, ResponsePlan, ResponseRow, Values, Variable,
 };
 
 /// A response with the names and the units of its report.
@@ -59,16 +59,16 @@ impl<'a> ResponseView<'a> {
     /// Of a machine, in the units of its numbers.
     #[must_use]
     pub fn of_machine(found: &'a ResponseCurves, plan: &'a ResponsePlan<Variable, String>, machine: &Machine) -> Self {
-        let path = quantity_path(plan.quantity.as_deref(), machine);
+        let path = &found.quantities[found.shown];
         Self {
             found,
             vary: plan.vary.text(),
             over: &plan.over,
             column: plan.vary.text().to_owned(),
             axis: plan.vary.text().to_owned(),
-            quantity: machine_quantity(machine, &path)
+            quantity: machine_quantity(machine, path)
                 .map_or_else(|_| path.clone(), |(part, of)| part.description(of).to_owned()),
-            ordinate: plain(&found.quantities[found.shown]),
+            ordinate: plain(path),
             columns: found.quantities.clone(),
             units: None,
         }

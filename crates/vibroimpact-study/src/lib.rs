@@ -89,7 +89,7 @@ pub use control::{Control, Meter, Stopped, TileMeter, tiles};
 pub use curve::{CurvePlan, EventCurve, FollowedEvent};
 pub use cut::Cut;
 pub use diagram::{Diagram, DiagramPlan};
-pub use dynamics::{CycleOf, Dynamics, PointOf, Setup, machine_label, quantity_path};
+pub use dynamics::{CycleOf, Dynamics, PointOf, Setup, machine_label};
 pub use edge::{EdgePlan, PlacePlan};
 pub use error::{PlanError, RunError};
 pub use event_columns::{END_REASONS, EventColumns, REAL_COLUMNS};

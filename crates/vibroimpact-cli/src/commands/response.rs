@@ -46,7 +46,7 @@ pub(crate) struct Response {
     machine_axes: MachineAxesArgs,
 
     /// The quantity, such as displacement-amplitude, displacement-max, impact-speed-max, power; of a machine its path, such as
-    /// q.head.displacement-amplitude or stop.anvil.impact-speed-max [default: displacement-amplitude, that of the first coordinate]
+    /// q.head.displacement-amplitude or stop.anvil.impact-speed-max [default: displacement-amplitude, of a machine that of its first coordinate, or its largest speed if all coordinates drift]
     #[arg(long, value_name = "NAME", help_heading = "Output")]
     quantity: Option<String>,
 

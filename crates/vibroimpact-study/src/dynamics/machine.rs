@@ -23,7 +23,9 @@ use vibroimpact::events::{Event, Limits, Motion, Start};
 use vibroimpact::machine::{Machine, MachineError};
 use vibroimpact::orbit::{Stability, find_machine_while, machine::Cycle};
 use vibroimpact::quantities::machine::Quantities;
-use vibroimpact::quantities::{machine_cycle_quantities, machine_quantities, machine_quantity, machine_quantity_paths};
+use vibroimpact::quantities::{
+    machine_cycle_quantities, machine_quantities, machine_quantity, machine_quantity_paths, machine_response_quantity,
+};
 use vibroimpact::verdict::{Census, SettleOptions, Settled, Verdict, scattered_machine_starts, settle_machine_while};
 
 /// Starts of the search for orbits.
@@ -51,13 +53,6 @@ pub fn machine_label(machine: &Machine, text: &str) -> Result<Label, PlanError> 
         (true, Some(_)) => Err(PlanError::LabelForced(given())),
         (true, None) => Ok(text.parse()?),
     }
-}
-
-/// The path of the quantity of a response: the displacement amplitude of the first coordinate if none is given.
-#[must_use]
-pub fn quantity_path(given: Option<&str>, machine: &Machine) -> String {
-    let first = || machine.parts().coordinates.first().map_or("", String::as_str);
-    given.map_or_else(|| format!("q.{}.displacement_amplitude", first()), str::to_owned)
 }
 
 /// The plane of two numbers over their ranges.
@@ -324,7 +319,7 @@ impl Dynamics for MachineSource {
     }
 
     fn quantity(machine: &Machine, given: Option<&String>) -> Result<String, PlanError> {
-        let path = quantity_path(given.map(String::as_str), machine);
+        let path = given.map_or_else(|| machine_response_quantity(machine), Clone::clone);
         machine_quantity(machine, &path).map_err(refused)?;
         Ok(path)
     }

@@ -3,8 +3,8 @@
 mod machine;
 mod oscillator;
 
+pub use machine::machine_label;
 pub(crate) use machine::refused;
-pub use machine::{machine_label, quantity_path};
 #[cfg(test)]
 pub(crate) use oscillator::at_rest;
 

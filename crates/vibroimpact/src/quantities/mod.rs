@@ -30,7 +30,9 @@ pub use crate::lyapunov::MEASURED_IMPACTS;
 pub use cycle::{cycle_segments, of_cycle};
 pub use errors::errors_of_verdict;
 pub use harmonic::{Harmonic, harmonics};
-pub use machine::{machine_cycle_quantities, machine_quantities, machine_quantity, machine_quantity_paths};
+pub use machine::{
+    machine_cycle_quantities, machine_quantities, machine_quantity, machine_quantity_paths, machine_response_quantity,
+};
 pub use quantity::Quantity;
 pub use segment::Segment;
 pub use tally::{Quantities, Tally};

@@ -16,4 +16,4 @@ mod sums;
 mod tally;
 
 pub use motion::{Quantities, machine_cycle_quantities, machine_quantities};
-pub use part::{Part, machine_quantity, machine_quantity_paths};
+pub use part::{Part, machine_quantity, machine_quantity_paths, machine_response_quantity};

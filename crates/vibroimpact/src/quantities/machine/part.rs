@@ -2,6 +2,7 @@
 
 use crate::machine::{Fault, Machine, MachineError};
 use crate::quantities::quantity::Quantity;
+use crate::regime::Normal;
 
 /// What a quantity refers to. Stops, joints and coordinates are counted as in the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -171,6 +172,17 @@ pub fn machine_quantity(machine: &Machine, path: &str) -> Result<(Part, Quantity
     })
 }
 
+/// The path of the quantity that a response shows if none is chosen: the displacement amplitude of the first coordinate that no free
+/// translation moves, or, where all are moved, the largest speed of the first one. The displacement of a machine that drifts has no
+/// amplitude.
+#[must_use]
+pub fn machine_response_quantity(machine: &Machine) -> String {
+    let normal = Normal::new(machine);
+    let held = (0..machine.parts().n()).find(|k| !normal.translations.moves(*k));
+    let quantity = if held.is_some() { Quantity::DisplacementAmplitude } else { Quantity::VelocityMax };
+    Part::Coordinate(held.unwrap_or(0)).path(machine, quantity)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -191,5 +203,21 @@ mod tests {
         let said = |path: &str| machine_quantity(&machine, path).unwrap_err().to_string();
         assert!(said("stop.wal.force_max").contains("begin with force.3, stop.wall, friction.guide, q.a, q.b"));
         assert!(said("q.a.speed").contains("the quantities of q.a are displacement_min,"), "{}", said("q.a.speed"));
+    }
+
+    /// Two masses on a spring drift together; a third one hangs on the ground.
+    #[test]
+    fn the_response_of_what_drifts_is_a_speed() {
+        let parts = |names: &[&str]| {
+            let masses = MachineParts::new(names.iter().copied());
+            let masses = (0..names.len()).fold(masses, |parts, k| parts.with_mass(k, 1.0));
+            let along =
+                |k: usize| (0..names.len()).map(move |i| if i == k { -1.0 } else { f64::from(u8::from(i == 0)) });
+            masses.with_link(&along(1).collect::<Vec<_>>(), 1.0, 0.1).with_frequency(1.0)
+        };
+        let shown = |parts: MachineParts| machine_response_quantity(&Machine::new(parts).unwrap());
+        assert_eq!(shown(parts(&["mass", "capsule"])), "q.mass.velocity_max");
+        let third = parts(&["mass", "capsule", "arm"]);
+        assert_eq!(shown(third.with_link(&[0.0, 0.0, 1.0], 1.0, 0.1)), "q.arm.displacement_amplitude");
     }
 }
