@@ -237,19 +237,21 @@ fn outside(cycle: &Cycle) -> Option<usize> {
     (!near).then(|| moduli.iter().filter(|modulus| **modulus > 1.0).count())
 }
 
-/// The events of a cycle: kind and place, without touches and all but the first impact of a chatter.
+/// The events of a cycle: kind and place, without touches and without what follows the first impact of a chatter: impacts, and
+/// joints that turn back between them.
 fn list(cycle: &Cycle) -> Vec<(EventKind, usize)> {
     let all: Vec<_> = cycle.events.iter().map(|event| (event.kind, event.place)).collect();
     let all: Vec<_> = all.into_iter().filter(|(kind, _)| *kind != EventKind::Graze).collect();
     let m = all.len();
-    let struck = |k: usize, place: usize| all[k % m] == (EventKind::Impact, place);
-    let in_chatter = |k: usize| {
-        let place = all[k].1;
-        let end = (k..k + m).find(|i| !struck(*i, place));
-        let rests = end.is_some_and(|end| all[end % m] == (EventKind::Stick, place));
-        rests && struck(k, place) && struck(k + m - 1, place)
+    let turns = |k: &usize| all[k % m].0 == EventKind::Slip;
+    let in_chatter = |k: usize, place: usize| {
+        let struck = |k: usize| all[k % m] == (EventKind::Impact, place);
+        let end = (k..k + m).find(|i| !struck(*i) && !turns(i));
+        let before = (1..=m).map(|i| k + m - i).find(|i| !turns(i));
+        end.is_some_and(|end| all[end % m] == (EventKind::Stick, place)) && before.is_some_and(struck)
     };
-    (0..m).filter(|k| !in_chatter(*k)).map(|k| all[k]).collect()
+    let stops: Vec<usize> = all.iter().filter(|(kind, _)| *kind == EventKind::Stick).map(|(_, place)| *place).collect();
+    (0..m).filter(|k| !stops.iter().any(|place| in_chatter(*k, *place))).map(|k| all[k]).collect()
 }
 
 /// Whether two cycles have the same events in the same cyclic order.

@@ -10,6 +10,7 @@ use super::beginning::{begun, traced};
 use super::change::Difference;
 use super::closest::closest;
 use super::equations::MachineEquations;
+use super::explained::{closings, same_events};
 use super::problem::{MachineProblem, MachineSolution};
 use super::summed::same_in_turn;
 use super::test_functions::TestFunction;
@@ -88,12 +89,17 @@ fn first_step(
 }
 
 /// Adds to a row of unknowns the direction in which a contact with a stop from event `first` to event `end` grows: it lasts longer, or,
-/// where both are one impact, its velocity away from the stop is larger.
+/// where both are one impact, its velocity away from the stop is larger. Without a rebound this velocity is 0: then it is the
+/// direction in which the impact comes earlier, which may be the other one.
 pub(super) fn grows(frame: &MachineFrame<'_>, row: &mut [f64], (first, end): (usize, usize), stop: usize) {
     let width = frame.shape.size() + 1;
     if end > first {
         row[first * width] -= 1.0;
         row[end * width] += 1.0;
+        return;
+    }
+    if matches!(frame.machine.stops()[stop].law, StopLaw::Rigid { restitution: 0.0 }) {
+        row[first * width] -= 1.0;
         return;
     }
     for (i, direction) in frame.normal.directions[stop].iter().enumerate() {
@@ -146,7 +152,8 @@ fn appearing(
         grows(&frame, &mut row, (index, end), *stop);
     }
     let along = tangent(&problem.equations, &w, &row)?;
-    first_step(&problem, &w, &along, options)
+    let back: Vec<f64> = along.iter().map(|t| -t).collect();
+    [along, back].iter().find_map(|along| first_step(&problem, &w, along, options))
 }
 
 /// Inserts an impact of speed zero on these rigid stops at once, or a contact with a compliant one that lasts for no time, as event
@@ -229,14 +236,25 @@ pub(super) fn replayed(
     (options, found): (&BranchOptions, &Difference),
 ) -> Option<(Tracer<MachineProblem>, bool)> {
     let (ring, forward) = (&tracer.problem.equations.ring, forward(at));
-    let corner = matches!(found, Difference::Corner { .. });
     let beside = if matches!(found, Difference::Rest { joint: false, .. }) { BESIDE_REST } else { BESIDE };
     let motion = LastMotion::of(tracer, at)?;
+    let other = |next: &MachineRing| !same_in_turn(&next.events, &ring.events);
+    if let Difference::Corner { first, second } = *found {
+        // the order of two events, or the way in which one contact ends, does not change how many contacts there are; the number can
+        // turn back. Close to a grazing contact a cycle without it is near, which this one does not become
+        let as_many = |next: &MachineRing| closings(next) == closings(ring);
+        let swapped = beside.into_iter().flat_map(|by| [forward * by, -forward * by]).filter_map(|by| {
+            motion.beside(tracer, (by, options), |next| (by * forward > 0.0 || other(next)) && as_many(next))
+        });
+        if let Some(next) = swapped.into_iter().find(|(_, continues)| *continues) {
+            return Some(next);
+        }
+        if first == second {
+            return None;
+        }
+    }
     let steps = [forward, -forward].into_iter().flat_map(|up| beside.map(|by| up * by));
-    let found = steps.into_iter().filter_map(|by| {
-        let other = |next: &MachineRing| !same_in_turn(&next.events, &ring.events) || corner && by * forward > 0.0;
-        motion.beside(tracer, (by, options), other)
-    });
+    let found = steps.into_iter().filter_map(|by| motion.beside(tracer, (by, options), other));
     first_continuing(found)
 }
 
@@ -367,9 +385,8 @@ pub(super) fn same_beyond(
 ) -> Option<Tracer<MachineProblem>> {
     let ring = &tracer.problem.equations.ring;
     let cycle = at.known.cycle.as_ref()?;
-    let chatters = Chatter::all(ring).len();
-    (chatters > 0).then_some(())?;
-    let other = |next: &MachineRing| next.events != ring.events && Chatter::all(next).len() == chatters;
+    (!Chatter::all(ring).is_empty()).then_some(())?;
+    let other = |next: &MachineRing| next.events != ring.events && same_events(next, ring);
     let (next, _) = LastMotion::of(tracer, at)?.beside(tracer, (SAME * forward(at), options), other)?;
     next.here.known.cycle.as_ref().is_some_and(|next| next.same_as(cycle, ALIKE)).then_some(next)
 }

@@ -5,7 +5,7 @@ use super::beyond::{across, apart, replayed, same_beyond, through_grazing, with_
 use super::change::Difference;
 use super::complete_chatter::{ADAPTED, CompleteChatter};
 use super::equations::MachineEquations;
-use super::explained::{explained, told};
+use super::explained::{explained, same_events};
 use super::family::Family;
 use super::meeting::meeting;
 use super::point::SolutionPoint;
@@ -13,7 +13,6 @@ use super::problem::{Judged, MachineProblem, MachineSolution};
 use super::rest_for_ever::rest_for_ever;
 use super::step::{NEARBY, off_circle};
 use super::struck::struck;
-use super::summed::same_in_turn;
 use super::test_functions::TestFunction;
 use crate::continuation::branches::{BranchError, BranchOptions, Direction, scale};
 use crate::continuation::event::BranchEvent;
@@ -156,13 +155,12 @@ impl EventBranch {
         let second = ring.events[event].guard.place(machine.stops().len());
         let gap = place.gap(&normal, &place.turns(&normal), stop).0;
         let corner = Difference::Corner { first: stop, second };
-        (gap.abs() < AT_ONCE * sizes.0 && self.order_matters(at, &corner)).then_some(corner)
+        (gap.abs() < AT_ONCE * sizes.0 && self.order_matters(at, (stop, second))).then_some(corner)
     }
 
     /// Whether it is a corner of two impacts that lead elsewhere in the other order: both stops are rigid, an impact on one changes
     /// the speed at the other, and they are not at one place.
-    fn order_matters(&self, at: &MachineSolution, found: &Difference) -> bool {
-        let Difference::Corner { first, second } = *found else { return false };
+    fn order_matters(&self, at: &MachineSolution, (first, second): (usize, usize)) -> bool {
         let Some((machine, _)) = self.tracer.problem.equations.split(&at.w) else { return false };
         let rigid =
             |stop: usize| matches!(machine.stops().get(stop).map(|stop| &stop.law), Some(StopLaw::Rigid { .. }));
@@ -171,6 +169,17 @@ impl EventBranch {
         both.into_iter().all(rigid) && {
             let [one, other] = both.map(|stop| normal.directions[stop].as_slice());
             dot(one, other) != 0.0 && independent([one, other].into_iter()).len() == both.len()
+        }
+    }
+
+    /// What a branch ends with at this event if it does not go on: the motion is not continuous where two impacts come to one time that
+    /// lead elsewhere in the other order.
+    fn ends(&self, at: &MachineSolution, event: BranchEvent) -> BranchEvent {
+        match event {
+            BranchEvent::Corner { first, second } if self.order_matters(at, (first, second)) => {
+                BranchEvent::Discontinuity
+            }
+            _ => BranchEvent::NoConvergence,
         }
     }
 
@@ -210,7 +219,8 @@ impl EventBranch {
         let (there, with_contact) = contact.unzip();
         let (at, next) = (there.as_ref().unwrap_or(at), next.or(with_contact));
         // where the motion is not continuous, a cycle a little beyond is another one by chance
-        let jumps = || self.order_matters(at, &self.at_one_time(at, found).unwrap_or(*found));
+        let jumps =
+            || self.ends(at, self.at_one_time(at, found).unwrap_or(*found).event(false)) == BranchEvent::Discontinuity;
         let own = |(_, continues): &(_, bool)| *continues || !jumps();
         let beyond = || replayed(&self.tracer, at, (&self.path.options, found)).filter(own);
         let Some((next, continues)) = next.map(|next| (next, true)).or_else(beyond) else {
@@ -258,14 +268,11 @@ impl EventBranch {
     /// Reports an event and goes on with the cycles beyond, which may not continue those before.
     fn jump(&mut self, at: &MachineSolution, found: &Difference, next: Option<(Tracer<MachineProblem>, bool)>) {
         let Some((next, continues)) = next else {
-            let found = &self.at_one_time(at, found).unwrap_or(*found);
-            self.add(at, Some(found.event(false)));
-            let end = match found {
-                Difference::Rest { joint: true, .. } => BranchEvent::Discontinuity,
-                _ if self.order_matters(at, found) => BranchEvent::Discontinuity,
-                _ => BranchEvent::NoConvergence,
-            };
-            return self.end(at, end);
+            let event = self.at_one_time(at, found).unwrap_or(*found).event(false);
+            self.add(at, Some(event));
+            // as that of a joint whose static limit exceeds its sliding force
+            let holds = matches!(event, BranchEvent::Holding { .. });
+            return self.end(at, if holds { BranchEvent::Discontinuity } else { self.ends(at, event) });
         };
         let event = found.event(turns_back(at, &next));
         self.go_on(at, event, (next, landing(continues)));
@@ -301,7 +308,7 @@ impl EventBranch {
         self.path.passed.push(now);
         self.add(at, Some(event));
         if self.goes_back(&next, number, event) {
-            return self.end(at, BranchEvent::NoConvergence);
+            return self.end(at, self.ends(at, event));
         }
         self.exchange(next);
         self.add(&self.tracer.here.clone(), landing);
@@ -313,9 +320,7 @@ impl EventBranch {
         let (ring, rises) = (&next.problem.equations.ring, last(&next.here.tangent) > 0.0);
         let near = AGAIN * self.tracer.problem.equations.scales[0];
         let same = |passed: &&Passed| {
-            passed.rises != rises
-                && (passed.number - number).abs() < near
-                && same_in_turn(&told(&passed.ring), &told(ring))
+            passed.rises != rises && (passed.number - number).abs() < near && same_events(&passed.ring, ring)
         };
         // where an impact of a chatter appears and the number turns, what is told is the same, and the cycle is another one
         let (last, others) = self.path.passed.split_last().unzip();

@@ -50,6 +50,13 @@ impl Tally {
     }
 }
 
+/// How often each contact closes; `None` of a stop with a complete chatter, of which not all impacts are followed.
+pub(super) fn closings(ring: &MachineRing) -> Vec<Option<usize>> {
+    let tallies = Tally::all(ring);
+    let counted = |(place, tally): (usize, &Tally)| (Chatter::count(ring, place) == 0).then_some(tally.closings);
+    tallies.iter().enumerate().map(counted).collect()
+}
+
 /// The events of all complete chatters before their rests: impacts, and what a joint does between them. How many of these are
 /// followed is no property of the cycle.
 fn summed(ring: &MachineRing) -> Vec<usize> {
@@ -79,8 +86,8 @@ fn closest_pair(ring: &MachineRing, joint: Option<usize>) -> Option<(usize, usiz
     Some((of(at), of(at + 1)))
 }
 
-/// The contacts whose rest or hold ends at the event of another one, each with that other one.
-fn freed(ring: &MachineRing) -> Vec<(usize, usize)> {
+/// The contacts that are so and cease to be at the event of another one, each with that other one.
+fn ended_by_others(ring: &MachineRing, are_so: fn(ContactState) -> bool) -> Vec<(usize, usize)> {
     let m = ring.len();
     let stops = ring.events.first().map_or(0, |event| event.back.len());
     let at = |k: usize| {
@@ -88,18 +95,44 @@ fn freed(ring: &MachineRing) -> Vec<(usize, usize)> {
         let by = event.guard.place(stops);
         let states = before.iter().zip(&event.after).enumerate();
         states.filter_map(move |(place, (then, now))| {
-            (then.constrains() && !now.constrains() && place != by).then_some((place, by))
+            (are_so(*then) && !are_so(*now) && place != by).then_some((place, by))
         })
     };
     (0..m).flat_map(at).collect()
 }
 
-/// The guards of all events and the states after them, without touches and without those of complete chatters.
-pub(super) fn told(ring: &MachineRing) -> Vec<(GuardKind, &[ContactState])> {
+/// The first pair of which one list has more than the other.
+fn on_one_side((here, there): (&[(usize, usize)], &[(usize, usize)])) -> Option<(usize, usize)> {
+    let count = |all: &[(usize, usize)], pair: &(usize, usize)| all.iter().filter(|own| *own == pair).count();
+    here.iter().chain(there).find(|pair| count(here, pair) != count(there, pair)).copied()
+}
+
+/// What tells an event: its guard and the states after it.
+type Told<'a> = (GuardKind, &'a [ContactState]);
+
+/// The events from each rest that ends a chatter to the next one, without touches; of a cycle without such rests all.
+fn stretches(ring: &MachineRing) -> Vec<Vec<Told<'_>>> {
     let m = ring.len();
-    let summed = summed(ring);
-    let tells = |k: &usize| !summed.contains(k) && !ring.events[*k].touches(&ring.events[(k + m - 1) % m].after);
-    (0..m).filter(tells).map(|k| (ring.events[k].guard, &ring.events[k].after[..])).collect()
+    let rests: Vec<usize> = Chatter::all(ring).into_iter().map(|chatter| chatter.rest).collect();
+    let tells = |k: &usize| !ring.events[*k].touches(&ring.events[(k + m - 1) % m].after);
+    let told = |k: usize| (ring.events[k].guard, &ring.events[k].after[..]);
+    let stretch = |rest: &usize| {
+        let end = (1..m).map(|i| (rest + i) % m).take_while(|k| !rests.contains(k));
+        core::iter::once(*rest).chain(end).filter(tells).map(told).collect()
+    };
+    if rests.is_empty() { vec![(0..m).filter(tells).map(told).collect()] } else { rests.iter().map(stretch).collect() }
+}
+
+/// Whether two cycles have the same events in turn, but for the last ones of chatters: impacts, and what a joint does between them. How
+/// many of these are followed before the sum is no property of the cycle.
+pub(super) fn same_events(a: &MachineRing, b: &MachineRing) -> bool {
+    let (one, other) = (stretches(a), stretches(b));
+    let count = one.len();
+    if Chatter::all(a).is_empty() || count != other.len() {
+        return Chatter::all(b).is_empty() && same_in_turn(&one[0], &other[0]);
+    }
+    let alike = |(one, other): (&Vec<Told<'_>>, &Vec<Told<'_>>)| one.starts_with(other) || other.starts_with(one);
+    (0..count).any(|shift| (0..count).all(|k| alike((&one[k], &other[(k + shift) % count]))))
 }
 
 /// The event, if it explains the difference of the cycle before it and that beyond; otherwise the one that does, and `None` if a
@@ -119,7 +152,7 @@ pub(super) fn explained(
         event => event,
     };
     let changes = matches!(event, BranchEvent::Change { .. });
-    if changes && !turns && same_in_turn(&told(before), &told(beyond)) {
+    if changes && !turns && same_events(before, beyond) {
         return None;
     }
     let (old, new) = (Tally::all(before), Tally::all(beyond));
@@ -129,22 +162,28 @@ pub(super) fn explained(
     let explains = match event {
         // without rebound a rest is interrupted where the stop ceases to press for an instant: it closes once more. A joint begins
         // to hold at once where it turned back for a moment before
-        BranchEvent::Grazing { stop: place, .. }
-        | BranchEvent::Sticking { stop: place, .. }
-        | BranchEvent::Holding { joint: place, .. } => old[place] != new[place],
+        BranchEvent::Grazing { stop: place, .. } | BranchEvent::Sticking { stop: place, .. } => {
+            old[place] != new[place]
+        }
+        // an impact that appears turns the joint of its coordinate back too
+        BranchEvent::Holding { joint, .. } => {
+            old[joint].rests != new[joint].rests || old[joint] != new[joint] && closing.is_none() && rest.is_none()
+        }
         BranchEvent::Change { .. } => false,
         _ => true,
     };
-    // a contact is freed by the event of another one, or by its own force just before
-    let one_sided = || {
-        let (here, there) = (freed(before), freed(beyond));
-        let only_here = here.iter().find(|pair| !there.contains(pair));
-        only_here.or(there.iter().find(|pair| !here.contains(pair))).copied()
+    let one_sided = |are_so: fn(ContactState) -> bool| {
+        on_one_side((&ended_by_others(before, are_so), &ended_by_others(beyond, are_so)))
     };
-    if !explains
-        && old == new
-        && let Some((first, second)) = one_sided()
-    {
+    let grazes = |at: usize| matches!(event, BranchEvent::Grazing { stop, .. } if stop == at);
+    // a contact is freed by the event of another one, or by its own force just before
+    let freed = || if old == new { one_sided(ContactState::constrains) } else { None };
+    // an impact elsewhere ends a contact that has just begun, or whose own force has just ended it
+    let ended = || {
+        one_sided(|state| state == ContactState::Closed).filter(|(stop, _)| old[*stop] == new[*stop] || grazes(*stop))
+    };
+    let pair = if explains { None } else { freed() };
+    if let Some((first, second)) = pair.or_else(ended) {
         return Some(BranchEvent::Corner { first, second });
     }
     // where nothing differs but the number of impacts of a chatter, what was found is all that is known

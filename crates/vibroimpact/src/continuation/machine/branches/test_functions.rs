@@ -55,6 +55,8 @@ impl TestFunction {
                 Some(match event.guard {
                     GuardKind::Gap(stop) => Difference::Disappears { at, stop },
                     guard @ GuardKind::Sliding(_) => rest(guard, !event.after[guard.place(stops)].constrains()),
+                    // the force comes to the limit and falls again: the joint holds on
+                    guard @ (GuardKind::LimitForward(_) | GuardKind::LimitBackward(_)) => rest(guard, true),
                     guard => Difference::Other { place: Some(guard.place(stops)) },
                 })
             }
