@@ -80,14 +80,18 @@ fn scattered(k: usize) -> [f64; 2] {
     [0.754_877_666, 0.569_840_296].map(|step| (0.5 + step * (k as f64 + 1.0)).fract())
 }
 
-/// The first two parameters that are not 0, with ranges about their values.
+/// The first two parameters that are not 0, or numbers of a machine without parameters, with ranges about their values.
 fn ranges(source: &MachineSource) -> Vec<(String, f64, f64)> {
-    let parameters = source.parameters.0.iter().filter(|(_, value)| *value != 0.0);
-    let range = |(name, value): &(String, f64)| {
+    let mut numbers: Vec<(String, f64)> =
+        source.parameters.0.iter().map(|(name, value)| (name.clone(), *value)).collect();
+    if numbers.is_empty() {
+        numbers = source.machine().unwrap().numbers();
+    }
+    let range = |(name, value): (String, f64)| {
         let (low, high) = (0.85 * value, 1.15 * value);
-        (name.clone(), low.min(high), low.max(high))
+        (name, low.min(high), low.max(high))
     };
-    parameters.map(range).take(2).collect()
+    numbers.into_iter().filter(|(_, value)| *value != 0.0).map(range).take(2).collect()
 }
 
 /// The label of the motion from rest, if it is a stable cycle.

@@ -35,7 +35,7 @@ pub(crate) fn events(points: &[SolutionPoint]) -> Vec<(BranchEvent, f64)> {
 }
 
 /// Beside all events, at stable points, motions that begin close to the cycle settle into it. Returns how many were compared.
-fn agrees_with_simulation((machine, path): (&Machine, &str), points: &[SolutionPoint]) -> usize {
+pub(crate) fn agrees_with_simulation((machine, path): (&Machine, &str), points: &[SolutionPoint]) -> usize {
     let mut compared = 0;
     for (k, point) in points.iter().enumerate().filter(|(_, point)| point.event.is_some()) {
         let others = points[..k].iter().rev().take(6).chain(points[k + 1..].iter().take(6));
@@ -492,9 +492,9 @@ fn f42zc_holds_of_two_pairs_begin_where_those_of_one_do() {
 
 /// A chain of bodies with these masses, links from each to the one before (stiffness and damping), a link of the first to the
 /// ground, and a force on the last.
-fn chain(mass: &[f64], link: &[(f64, f64)], frequency: f64, (cos, sin): (f64, f64)) -> MachineParts {
+pub(crate) fn chain(mass: &[f64], link: &[(f64, f64)], frequency: f64, (cos, sin): (f64, f64)) -> MachineParts {
     let n = mass.len();
-    let mut parts = MachineParts::new(["a", "b", "c"].into_iter().take(n));
+    let mut parts = MachineParts::new(["a", "b", "c", "d"].into_iter().take(n));
     for (i, (mass, (stiffness, damping))) in mass.iter().zip(link).enumerate() {
         parts = parts.with_mass(i, *mass);
         for (matrix, value) in [(&mut parts.stiffness, *stiffness), (&mut parts.damping, *damping)] {

@@ -5,6 +5,7 @@ mod accumulation;
 #[cfg(test)]
 mod branches;
 #[cfg(test)]
+mod branches_at_corners;
 mod branches_beyond;
 #[cfg(test)]
 mod branches_unforced;

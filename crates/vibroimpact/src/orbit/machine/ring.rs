@@ -246,6 +246,18 @@ impl MachineRing {
             && !next[j].constrains()
     }
 
+    /// With a contact of this stop that ends at event `k` by position instead of by force, or the other way round, where its force and
+    /// its depth are zero at once.
+    pub(crate) fn ending_otherwise(mut self, frame: &MachineFrame<'_>, k: usize, stop: usize) -> Option<Self> {
+        let guard = &mut self.events[k].guard;
+        *guard = match *guard {
+            GuardKind::Force(_) => GuardKind::Depth(stop),
+            _ => GuardKind::Force(stop),
+        };
+        self.set_surface(frame, stop)?;
+        Some(self)
+    }
+
     /// The compliant stop that closes at event `k` and opens at the next one.
     pub(crate) fn contact(&self, k: usize) -> Option<usize> {
         match (self.events[k].guard, self.events[(k + 1) % self.len()].guard) {
@@ -261,6 +273,14 @@ impl MachineRing {
         self.contact(k).is_some_and(|stop| ends && !self.events[(k + m - 1) % m].back[stop])
     }
 
+    /// Whether a contact of a compliant stop ends at event `k` by its force, or by an impact elsewhere: its surface stands back then.
+    fn ends_by_force(&self, k: usize, stop: usize) -> bool {
+        let (before, event) = (&self.events[(k + self.len() - 1) % self.len()], &self.events[k]);
+        before.after[stop] == ContactState::Closed
+            && event.after[stop] != ContactState::Closed
+            && !event.has(GuardKind::Depth(stop))
+    }
+
     /// Lets the surface of a damped stop stand back from each opening by force until it closes next, if the surface has not come
     /// back to its holder by then.
     pub(crate) fn set_surface(&mut self, frame: &MachineFrame<'_>, stop: usize) -> Option<()> {
@@ -272,7 +292,7 @@ impl MachineRing {
             place.surfaces[stop] = None;
         }
         let m = self.len();
-        for k in (0..m).filter(|k| self.events[*k].has(GuardKind::Force(stop))).collect::<Vec<_>>() {
+        for k in (0..m).filter(|k| self.ends_by_force(*k, stop)).collect::<Vec<_>>() {
             let place = self.place(k);
             let depth = (-frame.gap(&place, stop).0).max(LEAST.0);
             // the surface is taken along through the events after it, until its stop closes again

@@ -21,7 +21,7 @@ use crate::events::Place;
 use crate::machine::{Machine, Opening, StopLaw};
 use crate::math::sort_by;
 use crate::orbit::{Chatter, MachineFrame, MachineRing, Push, RingEvent, machine::Cycle, passing};
-use crate::regime::{ContactState, GuardKind, independent};
+use crate::regime::{ContactState, GuardKind, compliant, independent};
 
 /// The tracer beyond a point where these test functions of gaps are zero; `None` if none is found.
 pub(super) fn through_grazing(
@@ -187,6 +187,31 @@ fn insert_contact(
     ring.insert(index, RingEvent::touch(guard, open, back.clone()), end);
     ring.insert(index, RingEvent::touch(GuardKind::Gap(stop), &closed.states, back), closed);
     Some(())
+}
+
+/// The tracer beyond a corner at which the force and the depth of a stop are zero at once at the end of a contact: the same motion solves
+/// the equations in which this contact ends in the other way.
+pub(super) fn through_ending(
+    tracer: &Tracer<MachineProblem>,
+    at: &MachineSolution,
+    (found, options): (&Difference, &BranchOptions),
+) -> Option<Tracer<MachineProblem>> {
+    let Difference::Corner { first: stop, second } = *found else { return None };
+    let (machine, ring) = tracer.problem.equations.split(&at.w)?;
+    let (stiffness, damping, preload) = compliant(&machine.stops().get(stop).filter(|_| stop == second)?.law)?;
+    let frame = MachineFrame::new(&machine);
+    let ends = |k: &usize| matches!(ring.events[*k].guard, GuardKind::Force(of) | GuardKind::Depth(of) if of == stop);
+    let off = |k: &usize| {
+        let (gap, rate) = frame.gap(&ring.place(*k), stop);
+        gap.abs() + (preload - stiffness * gap - damping * rate).abs() / stiffness
+    };
+    let k = (0..ring.len()).filter(ends).min_by(|a, b| off(a).total_cmp(&off(b)))?;
+    let next = ring.ending_otherwise(&frame, k, stop)?;
+    let problem = with_ring(tracer, &machine, next, at.known.cycle.as_ref()?.sizes);
+    let w = MachineEquations::join(&machine, &problem.equations.ring, [last(&at.w)]);
+    let along = tangent(&problem.equations, &w, &problem.equations.row(&at.tangent))?;
+    let back: Vec<f64> = along.iter().map(|t| -t).collect();
+    [along, back].iter().find_map(|along| first_step(&problem, &w, along, options))
 }
 
 /// Without the impacts or contacts `gone`, whose speed is zero. What is left can be several times a shorter cycle.
