@@ -6,6 +6,7 @@ mod accumulation;
 mod branches;
 #[cfg(test)]
 mod branches_at_corners;
+#[cfg(test)]
 mod branches_beyond;
 #[cfg(test)]
 mod branches_unforced;

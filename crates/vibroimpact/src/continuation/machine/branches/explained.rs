@@ -102,7 +102,7 @@ fn ended_by_others(ring: &MachineRing, are_so: fn(ContactState) -> bool) -> Vec<
 }
 
 /// The first pair of which one list has more than the other.
-fn on_one_side((here, there): (&[(usize, usize)], &[(usize, usize)])) -> Option<(usize, usize)> {
+fn on_one_side(here: &[(usize, usize)], there: &[(usize, usize)]) -> Option<(usize, usize)> {
     let count = |all: &[(usize, usize)], pair: &(usize, usize)| all.iter().filter(|own| *own == pair).count();
     here.iter().chain(there).find(|pair| count(here, pair) != count(there, pair)).copied()
 }
@@ -173,7 +173,7 @@ pub(super) fn explained(
         _ => true,
     };
     let one_sided = |are_so: fn(ContactState) -> bool| {
-        on_one_side((&ended_by_others(before, are_so), &ended_by_others(beyond, are_so)))
+        on_one_side(&ended_by_others(before, are_so), &ended_by_others(beyond, are_so))
     };
     let grazes = |at: usize| matches!(event, BranchEvent::Grazing { stop, .. } if stop == at);
     // a contact is freed by the event of another one, or by its own force just before
