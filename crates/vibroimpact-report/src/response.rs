@@ -65,7 +65,7 @@ impl<'a> ResponseView<'a> {
             vary: plan.vary.text(),
             over: &plan.over,
             column: plan.vary.text().to_owned(),
-            axis: plan.vary.text().to_owned(),
+            axis: plain(plan.vary.text()),
             quantity: machine_quantity(machine, path)
                 .map_or_else(|_| path.clone(), |(part, of)| part.description(of).to_owned()),
             ordinate: plain(path),

@@ -39,7 +39,12 @@ impl Motion<'_> {
                         self.place.note(GuardKind::Gap(j), 1);
                         self.record(&[(j, restitution)]);
                         if let Some(passage) = &mut self.passage {
-                            passage.blows.push(Blow { stop: j, speed, impulse });
+                            passage.blows.push(Blow {
+                                stop: j,
+                                speed,
+                                impulse,
+                                loss: 0.5 * (1.0 - restitution) * speed * impulse,
+                            });
                         }
                         self.instants.keep(EventKind::Impact, j, speed);
                         self.struck.push((j, speed));

@@ -9,7 +9,8 @@
 //! resolved as at any instant, with the forces at rest: over a round that is short the impulses act as their mean force,
 //! so a joint that slips at each impact and holds in between holds at the end if the force at rest is within its limit.
 
-use super::event::EventKind;
+use super::advance::FAINT;
+use super::event::{End, EventKind};
 use super::instants::{BELOW, Round};
 use super::motion::Motion;
 use super::place::Place;
@@ -29,6 +30,10 @@ const SLOW: f64 = 1e-8;
 /// errors of the gaps could change what happens.
 const CLOSED: f64 = 512.0;
 const CROWDED: f64 = 65_536.0;
+/// Other forces can slow a joint too, so its friction alone need not bring it to rest, but for this part.
+const BY_FRICTION: f64 = 4.0;
+/// Stops on which a structure cannot come to rest at once keep rates above this part of their terms.
+const KEPT_APART: f64 = 1e-6;
 /// What goes by no more than so many rounding errors of a gap in many impacts does not move.
 const IN_PLACE: f64 = 64.0;
 /// The most impacts of a collapse that are followed by gaps alone, and for how many on each stop no time may pass at the end.
@@ -42,7 +47,8 @@ impl Motion<'_> {
     pub(super) fn accumulate(&mut self) {
         if let Some(round) = self.instants.round()
             && self.is_exact(&round)
-            && self.come_to_rest(&round.places, round.in_turn, round.left).is_some()
+            && let places = self.that_stop(&round)
+            && self.come_to_rest(&places, round.in_turn, round.left).is_some()
         {
             return;
         }
@@ -186,8 +192,26 @@ impl Motion<'_> {
     /// Brings the structure to rest on these stops, and these joints to rest, after a time; `None` if it stays on none of the
     /// stops, or leaves one before that time, or if something else happens before.
     pub(super) fn come_to_rest(&mut self, places: &[usize], in_turn: bool, left: f64) -> Option<()> {
-        let there = self.at_rest(places)?;
+        let mut places = places.to_vec();
+        let there = loop {
+            let there = self.at_rest(&places)?;
+            let pressed = self.pressed(&there, &places);
+            if pressed.is_empty() {
+                break there;
+            }
+            places.extend(pressed);
+        };
         let stops: Vec<usize> = places.iter().copied().filter(|at| *at < self.machine.stops().len()).collect();
+        let turns = there.turns(&self.normal);
+        let moves = |j: &usize| {
+            let (_, rate, _, size) = there.gap(&self.normal, &turns, *j);
+            rate.abs() > KEPT_APART * size
+        };
+        if stops.iter().any(moves) {
+            // stops that move towards each other leave no room between them
+            self.end = Some(End::Inconsistent);
+            return Some(());
+        }
         let opened: Vec<usize> = stops.iter().copied().filter(|j| there.states[*j] == ContactState::Open).collect();
         // the forces at rest open a stop at the end of the sum: not before
         if opened.len() == stops.len() || !opened.is_empty() && left > f64::EPSILON * self.time_scale() {
@@ -199,6 +223,38 @@ impl Motion<'_> {
         self.rest_after(there, &flight, left, (kind, &stops))?;
         opened.into_iter().for_each(|j| self.announce(EventKind::Release, j, 0.0, Vec::new()));
         Some(())
+    }
+
+    /// The stops of a round, and those of its joints that their friction brings to rest in the time that is left. A joint that only turns
+    /// back with the body at its one side slides on with the other: at one instant friction has no impulse.
+    fn that_stop(&mut self, round: &Round) -> Vec<usize> {
+        let stops = self.machine.stops().len();
+        let (struck, joints): (Vec<usize>, Vec<usize>) = round.places.iter().partition(|at| **at < stops);
+        let Some(there) = (if joints.is_empty() { None } else { self.at_rest(&struck) }) else {
+            return round.places.clone();
+        };
+        let slow = |at: &usize| {
+            let (speed, size) = there.sliding(self.machine, &self.normal, at - stops);
+            let w = &self.normal.directions[*at];
+            let slows = self.machine.joints()[at - stops].sliding * dot(w, w) * round.left;
+            speed.abs() <= BY_FRICTION * slows + FAINT * size
+        };
+        struck.iter().copied().chain(joints.into_iter().filter(slow)).collect()
+    }
+
+    /// Stops that are open and closed exactly, and would be closed further without the velocities that are taken away: a body beside a
+    /// sum that is slowed down by each of its impacts is struck in each round too, or once more at the end.
+    fn pressed(&mut self, there: &Place, places: &[usize]) -> Vec<usize> {
+        let turns = there.turns(&self.normal);
+        let closes = |j: &usize| {
+            let (_, rate, _, size) = there.gap(&self.normal, &turns, *j);
+            there.states[*j] == ContactState::Open
+                && matches!(self.machine.stops()[*j].law, StopLaw::Rigid { .. })
+                && !places.contains(j)
+                && rate < -FAINT * size
+        };
+        let closing: Vec<usize> = (0..self.machine.stops().len()).filter(closes).collect();
+        closing.into_iter().filter(|j| self.exact_gap(*j) == Some(0.0) || self.are_close(&[*j], CLOSED)).collect()
     }
 
     /// The state without the velocities of the gaps of these stops and of these joints, and with what rests and holds then. Stops
@@ -229,6 +285,19 @@ impl Motion<'_> {
         }
         let silenced = self.instants.silence(&mut there.x, &mut there.v, 1);
         there.known.retain(|(kind, _)| !places.contains(&kind.place(stops)));
+        // without these velocities a joint can slide in the other direction
+        for joint in 0..self.machine.joints().len() {
+            let (speed, size) = there.sliding(self.machine, &self.normal, joint);
+            let size = size.max(self.place.sliding(self.machine, &self.normal, joint).1);
+            if there.states[stops + joint].constrains() || places.contains(&(stops + joint)) {
+                continue;
+            }
+            if speed.abs() <= FAINT * size {
+                candidates.push(stops + joint);
+            } else {
+                there.states[stops + joint] = if speed > 0.0 { ContactState::Forward } else { ContactState::Backward };
+            }
+        }
         // they were those before the coordinates have moved
         there.gaps.retain(|of| there.states[of.stop] == ContactState::Closed);
         candidates.extend(places);

@@ -43,6 +43,8 @@ pub(super) struct Collision {
     pub(super) v: Vec<f64>,
     /// The impulse of each stop.
     pub(super) impulses: Vec<f64>,
+    /// The energy that is lost at each stop.
+    pub(super) losses: Vec<f64>,
     /// The stops that push in each round.
     pub(super) rounds: Vec<Vec<usize>>,
     /// Whether the last round is the sum of impacts without end, after which its stops stay closed.
@@ -51,7 +53,8 @@ pub(super) struct Collision {
 
 impl Collision {
     fn new(v: &[f64], stops: usize) -> Self {
-        Self { v: v.to_vec(), impulses: vec![0.0; stops], rounds: Vec::new(), ends_still: false }
+        let still = vec![0.0; stops];
+        Self { v: v.to_vec(), impulses: still.clone(), losses: still, rounds: Vec::new(), ends_still: false }
     }
 }
 
@@ -160,14 +163,21 @@ impl Collision {
         let of = |all: &[f64]| stops.iter().map(|k| all[*k]).collect::<Vec<f64>>();
         let along: Vec<&[f64]> = stops.iter().map(|k| directions[*k]).collect();
         let found = impulses(&along, &of(rates), &of(restitutions))?;
-        let mut pushing = Vec::new();
+        let before = self.v.clone();
         // a stop does not pull
-        for (k, impulse) in stops.iter().zip(found).filter(|(_, impulse)| *impulse > 0.0) {
+        let pushing: Vec<(usize, f64)> =
+            stops.iter().copied().zip(found).filter(|(_, impulse)| *impulse > 0.0).collect();
+        for (k, impulse) in &pushing {
             add_scaled(&mut self.v, -impulse, directions[*k]);
             self.impulses[*k] += impulse;
-            pushing.push(*k);
         }
-        self.rounds.push(pushing);
+        for (k, impulse) in &pushing {
+            let gained: f64 =
+                directions[*k].iter().zip(self.v.iter().zip(&before)).map(|(w, (v, before))| w * (v - before)).sum();
+            // the mean of the velocities of the gap before and after
+            self.losses[*k] -= impulse * (rates[*k] - 0.5 * gained);
+        }
+        self.rounds.push(pushing.into_iter().map(|(k, _)| k).collect());
         Some(())
     }
 }

@@ -14,6 +14,8 @@ pub(crate) struct Blow {
     pub(crate) speed: f64,
     /// Its impulse, against the direction of the stop; positive.
     pub(crate) impulse: f64,
+    /// The energy that it takes.
+    pub(crate) loss: f64,
 }
 
 /// One step of a motion.

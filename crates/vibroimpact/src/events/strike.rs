@@ -40,7 +40,7 @@ impl Motion<'_> {
         let law = self.machine.parts().impacts;
         let outcome = collide(law, &directions, &self.place.v, &rates, &restitutions)?;
         self.tie = depends_on_order(&outcome, &directions, &self.place.v, &rates, &restitutions, struck.len());
-        let Collision { v: mut after, impulses: found, rounds, ends_still } = outcome;
+        let Collision { v: mut after, impulses: found, losses, rounds, ends_still } = outcome;
         let still = |k: usize| ends_still && rounds.last().is_some_and(|last| last.contains(&k));
         self.place.jolt();
         let size = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
@@ -74,7 +74,7 @@ impl Motion<'_> {
         }
         self.place.v = after;
         if let Some(passage) = &mut self.passage {
-            let pushing = set.iter().zip(&found).filter(|(_, impulse)| **impulse > 0.0);
+            let pushing = set.iter().zip(&found).zip(losses).filter(|((_, impulse), _)| **impulse > 0.0);
             let of_round = |(r, round): (usize, &Vec<usize>)| {
                 let without = ends_still && r + 1 == rounds.len();
                 let push = |k: &usize| (set[*k].0, if without { 0.0 } else { set[*k].2 });
@@ -84,7 +84,12 @@ impl Motion<'_> {
             passage.ends_still = ends_still;
             passage.rounds = if alone { Vec::new() } else { rounds.iter().map(Vec::len).collect() };
             passage.blows = pushing
-                .map(|((j, rate, _), impulse)| Blow { stop: *j, speed: (-rate).max(0.0), impulse: *impulse })
+                .map(|(((j, rate, e), impulse), loss)| {
+                    let speed = (-rate).max(0.0);
+                    // each gap opens with the restitution times the speed of its closing, but for impacts in turn
+                    let loss = if alone && !ends_still { 0.5 * (1.0 - e) * speed * impulse } else { loss };
+                    Blow { stop: *j, speed, impulse: *impulse, loss }
+                })
                 .collect();
         }
         // an impulse takes a compliant stop at rest off its surface, or into it

@@ -5,8 +5,7 @@ use super::super::sums::Sum;
 use super::sums::{Extremes, PartSums};
 use crate::arc::{MachineFlight, Modes};
 use crate::events::{Event, Passage, Place, contact_forces};
-use crate::machine::StopLaw;
-use crate::math::{Gauss, POINTS, add_scaled, dot};
+use crate::math::{Gauss, POINTS, add_scaled, change_along, dot};
 use crate::orbit::MachineFrame;
 use crate::regime::{ContactState, POLYNOMIALS, Signal, Structure, compliant, rates};
 use crate::system::decay;
@@ -302,12 +301,10 @@ impl<'a> Tally<'a> {
         let Some(before) = &passage.before else { return };
         let turns = before.turns(&self.frame.normal);
         for blow in &passage.blows {
-            let StopLaw::Rigid { restitution } = self.frame.machine.stops()[blow.stop].law else { continue };
             let sums = &mut self.sums.stops[blow.stop];
             // at once, so it is not part of the integral of the force
             sums[Sum::Impulse] += blow.impulse;
-            // the mean of the velocities of the gap before and after, -(1 - e) U/2, times the impulse
-            sums[Sum::ImpactLoss] += 0.5 * (1.0 - restitution) * blow.speed * blow.impulse;
+            sums[Sum::ImpactLoss] += blow.loss;
             sums[Sum::Work] -= blow.impulse * self.walls[blow.stop].swing(&turns);
             let most = &mut self.extremes.impulses[blow.stop];
             *most = most.max(blow.impulse);
@@ -359,16 +356,29 @@ impl<'a> Tally<'a> {
             range[1] = (range[1].0.min(v), range[1].1.max(v));
         }
         let change: Vec<f64> = after.v.iter().zip(&before).map(|(after, before)| after - before).collect();
-        for (held, across) in rest.held.iter().zip(&rest.across) {
-            // the impulses along what holds at rest that make this change
-            let impulse = -dot(across, &change);
+        // the impulses along what holds at rest that make this change
+        let held: Vec<(usize, f64)> = if chatter.iter().all(|stop| rest.held.contains(stop)) {
+            rest.held.iter().zip(&rest.across).map(|(held, across)| (*held, -dot(across, &change))).collect()
+        } else {
+            // and along stops that have opened at the end
+            let beside = chatter.iter().filter(|stop| !rest.held.contains(stop));
+            let all: Vec<usize> = rest.held.iter().chain(beside).copied().collect();
+            // the smallest impulses that make this change, in each coordinate
+            let rows: Vec<Vec<f64>> =
+                (0..normal.n).map(|i| all.iter().map(|at| normal.directions[*at][i]).collect()).collect();
+            let rows: Vec<(&[f64], f64)> = rows.iter().map(Vec::as_slice).zip(change.iter().copied()).collect();
+            let mut least = vec![0.0; all.len()];
+            change_along(&rows, &mut least);
+            all.into_iter().zip(least.into_iter().map(|along| -along)).collect()
+        };
+        for (held, impulse) in &held {
             if *held >= stops {
                 let joint = &mut self.sums.joints[*held - stops];
                 joint[Sum::Impulse] += impulse;
                 joint[Sum::Work] -= impulse * machine.joints()[*held - stops].belt;
                 continue;
             }
-            let sums = &mut self.sums.stops[*held];
+            let (sums, impulse) = (&mut self.sums.stops[*held], *impulse);
             let moves = self.walls[*held].swing(&turns);
             sums[Sum::Work] -= impulse * moves;
             if chatter.contains(held) {
