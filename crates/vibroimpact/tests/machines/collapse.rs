@@ -1,7 +1,7 @@
 //! Impacts on several stops in turn that accumulate, and starts on and beyond several stops.
 
 use vibroimpact::events::{End, Event, EventKind, Limits, Motion, Start};
-use vibroimpact::machine::{Machine, MachineParts};
+use vibroimpact::machine::{HarmonicMotion, ImpactLaw, Machine, MachineParts};
 
 /// A body on another one on a table, under gravity 1.
 fn stack((low, high): (f64, f64), restitution: f64) -> Machine {
@@ -152,4 +152,89 @@ fn starts_beyond_stops_become_valid() {
             assert_eq!(within, start);
         }
     }
+}
+
+/// Three bodies beside each other that close on each other and on a wall at one time.
+fn row(mass: [f64; 3], restitution: [f64; 3], push: f64) -> MachineParts {
+    let parts = MachineParts::new(["a", "b", "c"]).with_constant(2, push);
+    let parts = (0..3).fold(parts, |parts, k| parts.with_mass(k, mass[k]));
+    let stops = [("wall", [-1.0, 0.0, 0.0]), ("ab", [1.0, -1.0, 0.0]), ("bc", [0.0, 1.0, -1.0])];
+    let all = stops.into_iter().zip(restitution);
+    all.fold(parts, |parts, ((name, along), e)| parts.with_rigid_stop(name, &along, 0.0, e))
+}
+
+/// The last body follows the second one without a rebound, each time that this is slowed down by the first one between it and the
+/// wall. The impacts of the other two are summed, and it stops with them; a small force on it must not leave it its velocity.
+#[test]
+fn a_body_beside_a_collapse_is_struck_too() {
+    for push in [0.01, 0.0, -0.01] {
+        let machine = Machine::new(row([0.1, 2.0, 0.1], [0.75, 0.1, 0.0], push)).unwrap();
+        let start = Start { qdot: vec![-1.3, -0.3, -1.3], ..Start::default() };
+        let (seen, _) = events(&machine, &start);
+        let last = seen.last().unwrap();
+        assert!(last.qdot == [0.0; 3] && last.q == [0.0; 3] && last.time == 0.0, "{push}: {last:?}");
+    }
+}
+
+/// A body that strikes a wall again and again rubs on another one, and turns the joint back each time. All impacts come to one instant,
+/// in which friction has no impulse, so the other body keeps its velocity.
+#[test]
+fn a_joint_slides_on_after_a_collapse() {
+    for speed in [0.02, 0.1] {
+        let parts = MachineParts::new(["a", "b", "c"]).with_mass(0, 0.4).with_mass(1, 1.0).with_mass(2, 1.0);
+        let parts = parts.with_constant(2, -0.5).with_joint("rub", &[-1.0, 1.0, 0.0], 0.046, 0.046, 0.0);
+        let parts = parts.with_rigid_stop("ca", &[-1.0, 0.0, 1.0], 0.0, 0.0);
+        let machine = Machine::new(parts.with_rigid_stop("wall", &[1.0, 0.0, 0.0], 0.0, 0.5)).unwrap();
+        let start = Start { q: vec![-3e-4, 0.0, -3e-4], qdot: vec![0.35, speed, 0.35], ..Start::default() };
+        let (seen, _) = events(&machine, &start);
+        let last = seen.iter().rfind(|event| event.time < 1e-3).unwrap();
+        assert!(last.qdot[0].abs() < 1e-15, "{last:?}");
+        // the sliding force acts for less than a thousandth
+        assert!((last.qdot[1] - speed).abs() < 0.046 * 1e-3, "{speed}: {last:?}");
+    }
+}
+
+/// Bodies come to rest on a moving table, and the upper one rubs on the ground: its joint slides with the table, and turns back where
+/// the table does.
+#[test]
+fn a_collapse_on_a_moving_table() {
+    let frequency = 0.878;
+    let mut parts = row([0.552, 0.1, 1.557], [0.5, 0.5, 0.1], -1.557).with_constant(0, -0.552).with_constant(1, -0.1);
+    parts.impacts = ImpactLaw::InTurn;
+    parts.stops[0].motion.push(HarmonicMotion { order: 1, cos: 0.0, sin: 0.2 });
+    parts.stops[1].gap = 0.3;
+    let parts = parts.with_frequency(frequency).with_link(&[0.0, 0.0, 1.0], 2.124, 0.013);
+    let machine = Machine::new(parts.with_joint("rub", &[0.0, 0.0, 1.0], 0.131, 0.131, 0.0)).unwrap();
+    let start = Start { qdot: vec![-1.0, 0.0, 1.0], ..Start::default() };
+    let motion = Motion::new(&machine, &start, Limits::default()).unwrap();
+    let seen: Vec<Event> = motion.take_while(|event| event.time < 5.7).collect();
+    let on_table = |event: &Event| event.kind == EventKind::Collapse && event.place == 0;
+    let at = seen.iter().position(on_table).unwrap();
+    let table = 0.2 * frequency * (frequency * seen[at].time).cos();
+    assert!(seen[at].qdot.iter().all(|v| (v - table).abs() < 1e-12), "{:?} {table}", seen[at]);
+    let slips: Vec<(f64, f64)> = seen[at..]
+        .iter()
+        .filter(|event| event.kind == EventKind::Slip)
+        .map(|event| (event.time, event.speed))
+        .collect();
+    let turn = |k: f64| (k * core::f64::consts::FRAC_PI_2) / frequency;
+    let expected = [(seen[at].time, 1.0), (turn(1.0), -1.0), (turn(3.0), 1.0)];
+    assert_eq!(slips.len(), expected.len(), "{slips:?}");
+    for ((time, way), (at, forward)) in slips.into_iter().zip(expected) {
+        assert!((time - at).abs() < 1e-12 && way == forward, "{time} {at} {way}");
+    }
+}
+
+/// A moving table presses two bodies against a fixed stop until there is no room between them: no motion goes on from there.
+#[test]
+fn no_room_is_left() {
+    let mut parts = MachineParts::new(["a", "b"]).with_mass(0, 2.0).with_mass(1, 0.4).with_frequency(2.0);
+    parts = parts.with_rigid_stop("table", &[-1.0, 0.0], 0.0, 0.1).with_rigid_stop("ab", &[1.0, -1.0], 0.0, 0.0);
+    parts.stops[0].motion.push(HarmonicMotion { order: 1, cos: 0.0, sin: 2.0 });
+    let machine = Machine::new(parts.with_rigid_stop("top", &[0.0, 1.0], 1.0, 0.9)).unwrap();
+    let (seen, end) = events(&machine, &Start { qdot: vec![4.0; 2], ..Start::default() });
+    assert_eq!(end, Some(End::Inconsistent));
+    // the table reaches the stop where 2 sin 2t is 1
+    let time = seen.last().unwrap().time;
+    assert!((time - 0.261_799_387_799_149_4).abs() < 1e-9, "{time}");
 }

@@ -2,7 +2,7 @@
 
 use vibroimpact::events;
 use vibroimpact::events::{Limits, Sample, Samples};
-use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
+use vibroimpact::machine::{HarmonicMotion, ImpactLaw, Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::quantities::{
     Quantity, errors_of_verdict,
@@ -398,6 +398,49 @@ fn the_momentum_of_free_bodies() {
         cycles += 1;
     }
     assert!(cycles > 15, "{cycles}");
+}
+
+/// Impacts in turn that end in rest or in a common velocity, and collapses of three bodies at rest and on a moving table: what is lost is
+/// the work.
+#[test]
+fn impacts_in_turn_and_collapses_balance() {
+    let row = |mass: &[f64], stops: &[(f64, f64)]| {
+        let n = mass.len();
+        let parts = MachineParts::new(["a", "b", "c"].into_iter().take(n));
+        let parts = mass.iter().enumerate().fold(parts, |parts, (k, mass)| parts.with_mass(k, *mass));
+        let along = |k: usize| -> Vec<f64> {
+            (0..n).map(|i| f64::from(u8::from(i + 1 == k)) - f64::from(u8::from(i == k))).collect()
+        };
+        let names = ["floor", "ab", "bc"].into_iter().zip(stops).enumerate();
+        names.fold(parts, |parts, (k, (name, (gap, e)))| parts.with_rigid_stop(name, &along(k), *gap, *e))
+    };
+    let mut dropped = row(&[1.0, 1.0], &[(0.0, 0.5), (0.1, 0.4)]).with_constant(0, -5.0).with_frequency(1.0);
+    dropped.impacts = ImpactLaw::InTurn;
+    let dropped = dropped.with_link(&[0.0, 1.0], 1.0, 0.1).with_force(1, 1, 0.0, 1.0);
+    let cover =
+        row(&[0.1, 2.0, 0.1], &[(0.19, 0.75), (0.0, 0.1), (0.0, 0.0)]).with_constant(0, 0.05).with_constant(1, -2.8);
+    let cover = cover.with_link(&[0.0, 1.0, 0.0], 20.0, 0.4).with_link(&[0.0, 0.0, 1.0], 5.3, 0.01);
+    let cover = cover.with_frequency(5.16).with_force(1, 1, 0.0, 58.2);
+    let mut table = row(&[1.0; 3], &[(0.1, 0.1), (0.1, 0.0), (0.0, 0.088)]).with_frequency(0.611);
+    table.stops[0].motion.push(HarmonicMotion { order: 1, cos: 0.0, sin: 1.447 });
+    let table = [(0.323, 0.031), (2.297, 0.093), (1.991, 0.033)].into_iter().enumerate().fold(
+        table,
+        |parts, (k, (stiffness, damping))| {
+            let along = parts.along(k);
+            parts.with_link(&along, stiffness, damping)
+        },
+    );
+    let table = table.with_joint("rub", &[1.0, 0.0, 0.0], 0.027, 0.027, 0.0);
+    for (name, parts) in [("dropped", dropped), ("cover", cover), ("table", table)] {
+        let machine = Machine::new(parts).unwrap();
+        let cycle = settled(&machine).unwrap_or_else(|| panic!("{name} has no cycle"));
+        let found = machine_cycle_quantities(&machine, &cycle).unwrap();
+        let of = |path: &str| number(&machine, &found, path);
+        let lost: f64 =
+            ["impact", "friction", "damping"].iter().map(|kind| of(&format!("{kind}_loss_per_period"))).sum();
+        let work = of("work_per_period");
+        assert!((work / lost - 1.0).abs() < 1e-9, "{name} {}: {work} {lost}", cycle.label);
+    }
 }
 
 /// Structures without modes, stops 1e8 times stiffer than the structure, stiff links, overdamped modes: energy and momentum
