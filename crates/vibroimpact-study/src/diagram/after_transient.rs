@@ -11,7 +11,7 @@ use vibroimpact::events::{End, Motion, Sample, Samples, Start};
 use vibroimpact::machine::Machine;
 use vibroimpact::regime::ContactState;
 use vibroimpact::system::phase;
-use vibroimpact::verdict::{Count, Verdict, settle_machine};
+use vibroimpact::verdict::settle_machine;
 
 /// The largest number of events for each closing or period: opening, sticking, slipping and chatter are events too.
 pub(crate) const EVENTS_EACH: u64 = 1000;
@@ -154,13 +154,7 @@ pub(super) fn settled(machine: &Machine, start: &Start, quantity: &str) -> Resul
     let found = settle_machine(machine, start, &options(None)).map_err(refused)?.verdict;
     let value = values_of(machine, &found, &[quantity.to_owned()])[0];
     let point = value.is_finite().then_some(DiagramPoint::Value(value));
-    let kind = match &found {
-        Verdict::Periodic(cycle) if cycle.label.impacts == Count::Finite(0) => MotionKind::NoImpact,
-        Verdict::Periodic(_) | Verdict::Chaotic(_) => MotionKind::Impacts,
-        Verdict::NoImpact(_) => MotionKind::NoImpact,
-        Verdict::Stuck(_) => MotionKind::Stuck,
-        Verdict::Undecided(_) => MotionKind::Undecided,
-    };
+    let kind = MotionKind::of(&found);
     let last = found.reached(machine).unwrap_or_else(|| start.clone());
     Ok(AfterTransient { kind, points: point.into_iter().collect(), last })
 }

@@ -2,7 +2,7 @@
 
 use crate::{PlanError, SystemPlan};
 use vibroimpact::Start;
-use vibroimpact::verdict::SettleOptions;
+use vibroimpact::verdict::{Count, SettleOptions, System, Verdict};
 
 /// The kind of the motion at one value after the transient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,6 +21,17 @@ pub enum MotionKind {
 impl MotionKind {
     /// All of them, in the order of the numbers that stand for them in stores.
     const ALL: [Self; 4] = [Self::NoImpact, Self::Impacts, Self::Stuck, Self::Undecided];
+
+    /// The kind of a settled motion.
+    pub(super) fn of<S: System>(motion: &Verdict<S>) -> Self {
+        match motion {
+            Verdict::Periodic(cycle) if S::label(cycle).impacts == Count::Finite(0) => Self::NoImpact,
+            Verdict::Periodic(_) | Verdict::Chaotic(_) => Self::Impacts,
+            Verdict::NoImpact(_) => Self::NoImpact,
+            Verdict::Stuck(_) => Self::Stuck,
+            Verdict::Undecided(_) => Self::Undecided,
+        }
+    }
 
     /// The number that stands for it in stores.
     pub(crate) fn code(self) -> usize {

@@ -10,12 +10,7 @@ use vibroimpact::{Oscillator, Side, Start};
 /// Settles the motion from a start. Its point is the value of the quantity, if it is finite.
 pub(super) fn after_transients(osc: &Oscillator, start: Start, quantity: Quantity) -> AfterTransient {
     let verdict = settle(osc, start, &SettleOptions::default()).verdict;
-    let kind = match &verdict {
-        Verdict::Periodic(_) | Verdict::Chaotic(_) => MotionKind::Impacts,
-        Verdict::NoImpact(_) => MotionKind::NoImpact,
-        Verdict::Stuck(_) => MotionKind::Stuck,
-        Verdict::Undecided(_) => MotionKind::Undecided,
-    };
+    let kind = MotionKind::of(&verdict);
     let value = of_verdict_only(osc, &verdict, &[quantity]).map(|of| of.get(quantity));
     let points = value.filter(|value| value.is_finite()).map(DiagramPoint::Value);
     AfterTransient { kind, points: points.into_iter().collect(), last: state_on(osc, &verdict, start) }

@@ -1,14 +1,13 @@
 //! A basin in memory: its tiles are joined, and the motions are in the order of the first start that leads to each.
 
 use crate::basin::{Basin, BasinPlan, start};
-use crate::in_memory::join::{Joined, Part, joined};
 use crate::quantity::values_of;
-use crate::study::{BasinFill, BasinTile, Basins, Cell, Fill, MachineBasin, StoredMotion, tiles_of};
+use crate::study::{BasinFill, BasinTile, Basins, Cell, Fill, MachineBasin, tiles_of};
 use crate::{Block, Control, PlanError, RunError, Stopped, SystemPlan, axis};
 use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
 use vibroimpact::quantities::of_verdict_only;
-use vibroimpact::verdict::{CountedMotion, Undecided, UndecidedCause, Verdict, settle, settle_machine};
+use vibroimpact::verdict::{Census, CountedMotion, System, Undecided, UndecidedCause, Verdict, settle, settle_machine};
 
 /// Approximate number of starts of a tile: large enough that joining takes no noticeable time, small enough to stop
 /// quickly and to use all threads.
@@ -75,64 +74,78 @@ pub(crate) fn machine_basin(
     Ok(Basin::new(plan.clone(), (motions, cells), seen_events, quantities)?)
 }
 
-/// The motions of all starts. `first` returns the verdict on a start; `note` is called for each tile.
+/// The motions of all tiles, and for each start the index of its motion.
+struct Joined<S: System> {
+    motions: Vec<CountedMotion<S>>,
+    cells: Vec<Option<usize>>,
+}
+
+/// The motions of all starts. `settled` returns the verdict on the start at a point of the grid; `note` is called for each tile.
+///
+/// The verdict on a motion is that of its first start, so it does not depend on the tiles.
 fn all<B: Basins>(
     task: &BasinFill<B>,
-    first: impl Fn(usize) -> Verdict<B::System>,
+    settled: impl Fn(usize) -> Verdict<B::System>,
     mut note: impl FnMut(&Block, &BasinTile<B>),
     control: &Control<'_>,
-) -> Result<Joined<B::System>, Stopped>
-where
-    Verdict<B::System>: StoredMotion,
-{
-    let parts = tiles_of(&task.over().grid, control, |block, tick| task.compute(block, tick))?.into_iter().map(
-        |(block, tile)| {
-            note(&block, &tile);
-            // without refinement every start is settled
-            let number = |cell: &Cell<Option<u32>>| if let Cell::Computed(number) = cell { *number } else { None };
-            Part { block, cells: tile.cells.iter().map(number).collect(), met: tile.met }
-        },
-    );
-    Ok(joined(&task.over().grid.whole(), parts, first))
+) -> Result<Joined<B::System>, Stopped> {
+    let whole = task.over().grid.whole();
+    let mut merged = Census::default();
+    let mut cells: Vec<Option<usize>> = vec![None; whole.points()];
+    // for each motion, the start whose verdict is in the census
+    let mut sources: Vec<usize> = Vec::new();
+    for (block, tile) in tiles_of(&task.over().grid, control, |block, tick| task.compute(block, tick))? {
+        note(&block, &tile);
+        let numbers: Vec<usize> = tile.met.motions().iter().map(|found| merged.add_found(found)).collect();
+        for (k, cell) in tile.cells.iter().enumerate() {
+            // without refinement every start is settled; some have no motion
+            let Cell::Computed(Some(local)) = cell else { continue };
+            let (place, number) = (whole.number(&block.index(k)), numbers[*local as usize]);
+            if number == sources.len() {
+                sources.push(place);
+            }
+            cells[place] = Some(number);
+        }
+    }
+    let mut order: Vec<(usize, usize)> = Vec::new();
+    let mut renumbered = vec![None; sources.len()];
+    for (place, cell) in cells.iter_mut().enumerate() {
+        *cell = cell.map(|number| {
+            *renumbered[number].get_or_insert_with(|| {
+                order.push((number, place));
+                order.len() - 1
+            })
+        });
+    }
+    let motions = order.into_iter().map(|(number, first)| {
+        let found = &merged.motions()[number];
+        let verdict = if sources[number] == first { found.verdict.clone() } else { settled(first) };
+        CountedMotion { verdict, count: found.count }
+    });
+    Ok(Joined { motions: motions.collect(), cells })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vibroimpact::verdict::Census;
 
-    #[test]
-    fn the_same_for_any_number_of_threads() {
-        let osc = SystemPlan::from_inverse_beta(1.3, 0.75, 0.5);
-        let plan = BasinPlan::plane("-4:0.75:50".parse().unwrap(), "-4:4:40".parse().unwrap(), 0.0);
-        let run = |threads| basin(&osc, &plan, &Control { threads, ..Control::default() }).unwrap();
-        let one = run(1);
-        assert_eq!(one.cells.len(), 2000);
-        assert_eq!(one.motions.iter().map(|m| m.count).sum::<u64>(), 2000);
-        assert_eq!(one.motions.len(), 2);
-        for threads in [2, 3, 8] {
-            assert_eq!(run(threads), one);
-        }
-        for tile in [1, 7, 64, 999, 100_000] {
-            let control = Control { threads: 2, ..Control::default() };
-            assert_eq!(in_tiles(&osc, &plan, &control, tile).unwrap(), one, "{tile}");
-        }
-    }
-
-    /// The same result when the starts are settled one after another, without lanes and trapping regions.
+    /// The same result for any tiles and threads as when the starts are settled one after another, without lanes and trapping
+    /// regions.
     #[test]
     fn the_same_as_one_by_one() {
         let system = SystemPlan::from_inverse_beta(1.7, 2.25, 0.5);
         let osc = system.oscillator().unwrap();
         let plan = BasinPlan::plane("-4:2.25:40".parse().unwrap(), "-4:4:30".parse().unwrap(), 0.5);
-        let got = basin(&system, &plan, &Control::default()).unwrap();
         let mut census = Census::default();
         let one_by_one = |k| {
             let verdict = settle(&osc, start(&osc, &plan, k), &plan.options());
             census.add(&verdict.verdict)
         };
         let cells: Vec<usize> = (0..1200).map(one_by_one).collect();
-        assert_eq!(got.cells.iter().map(|&cell| usize::from(cell)).collect::<Vec<_>>(), cells);
-        assert_eq!(got.motions, census.motions());
+        for (tile, threads) in [(TILE, 1), (1, 2), (7, 3), (64, 8), (999, 2), (100_000, 2)] {
+            let got = in_tiles(&system, &plan, &Control { threads, ..Control::default() }, tile).unwrap();
+            assert_eq!(got.cells.iter().map(|&cell| usize::from(cell)).collect::<Vec<_>>(), cells, "{tile}");
+            assert_eq!(got.motions, census.motions(), "{tile}");
+        }
     }
 }

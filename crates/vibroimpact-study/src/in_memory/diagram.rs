@@ -28,7 +28,7 @@ pub(crate) fn diagram<D: Swept>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagram::{DiagramPlan, DiagramPoint, DiagramStep, MotionKind, Show, Sweep};
+    use crate::diagram::{DiagramPlan, DiagramPoint, DiagramStep, MotionKind, Sweep};
     use crate::{Parameter, Span, Stretch, SystemPlan, Values};
 
     const S: SystemPlan = SystemPlan::from_inverse_beta(1.3, 0.0, 0.5);
@@ -43,23 +43,6 @@ mod tests {
 
     fn run(system: &SystemPlan, plan: &DiagramPlan) -> Diagram {
         diagram(&SweepFill::new(system, plan, Some(DIAGRAM_TILE)), &Control::default()).unwrap()
-    }
-
-    #[test]
-    fn the_same_for_any_number_of_threads() {
-        let scatter = SweepDirection::Scatter { starts: 5, seed: 3 };
-        for (direction, show) in
-            [(SweepDirection::Both, Show::Velocity), (SweepDirection::Both, Show::Strobe), (scatter, Show::Velocity)]
-        {
-            let plan = DiagramPlan { direction, show, ..plan("-0.5:3:29") };
-            let task = SweepFill::new(&S, &plan, Some(DIAGRAM_TILE));
-            let run = |threads| diagram(&task, &Control { threads, ..Control::default() }).unwrap();
-            let one = run(1);
-            assert_eq!(one.steps.len() as u64, 29 * plan.runs());
-            for threads in [2, 3, 8] {
-                assert_eq!(run(threads), one);
-            }
-        }
     }
 
     #[test]

@@ -3,7 +3,6 @@
 mod attractors;
 mod basin;
 mod diagram;
-mod join;
 mod map;
 
 pub(crate) use attractors::{attractors, machine_attractors};

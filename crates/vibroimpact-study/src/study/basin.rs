@@ -13,17 +13,17 @@ use super::cycles::{self, Numbered};
 use super::fill::{self, Fill, Over};
 use super::map::{computed, computed_column};
 use super::refine::{self, Cell};
-use super::stored_motion::StoredMotion;
+use super::stored_motion::Stored;
 use crate::field::{Column, Field};
 use crate::grid::{Block, Grid};
 use core::cell::RefCell;
 use std::sync::OnceLock;
-use vibroimpact::verdict::{Census, CountedMotion, System, Verdict};
+use vibroimpact::verdict::{Census, CountedMotion, Verdict};
 
 /// The starts of a system, or of systems, over a grid.
 pub(crate) trait Basins: Send + Sync {
     /// The kind of system.
-    type System: System<
+    type System: Stored<
             Cycle: Send + Sync,
             NoImpact: Send + Sync,
             Place: Send + Sync,
@@ -57,13 +57,14 @@ pub(crate) trait Basins: Send + Sync {
     ) -> Option<Vec<Option<u32>>>;
 
     /// Whether two motions of a tile count as the same for starts between them.
-    fn alike(met: &Census<Self::System>, a: Option<u32>, b: Option<u32>) -> bool {
-        let _ = met;
+    fn alike(_: &Census<Self::System>, a: Option<u32>, b: Option<u32>) -> bool {
         a == b
     }
 
     /// The codes of the labels of the motions of a tile that belong to several systems.
-    fn codes(notes: &Self::Notes) -> Vec<i32>;
+    fn codes(_: &Self::Notes) -> Vec<i32> {
+        Vec::new()
+    }
 
     /// The fields after those of the motions.
     fn fields(&self) -> Vec<Field>;
@@ -77,7 +78,9 @@ pub(crate) trait Basins: Send + Sync {
     ) -> Vec<Column>;
 
     /// The names of the stops of a machine.
-    fn stops(&self) -> Vec<String>;
+    fn stops(&self) -> Vec<String> {
+        Vec::new()
+    }
 
     /// A basin of one system, whose cycles are numbered.
     fn numbered(of: &BasinFill<Self>) -> Numbered<'_>
@@ -112,10 +115,7 @@ impl<B: Basins + ?Sized> BasinTile<B> {
 /// The result of a start as it is stored: the code of its label and the number of its cycle.
 type Leads = (i32, i32);
 
-impl<B: Basins> BasinFill<B>
-where
-    Verdict<B::System>: StoredMotion,
-{
+impl<B: Basins> BasinFill<B> {
     pub(crate) const fn new(of: B, over: Over) -> Self {
         Self { of, over, survey: OnceLock::new() }
     }
@@ -180,10 +180,7 @@ where
     }
 }
 
-impl<B: Basins> Fill for BasinFill<B>
-where
-    Verdict<B::System>: StoredMotion,
-{
+impl<B: Basins> Fill for BasinFill<B> {
     fn together(&self) -> u64 {
         fill::with_refinement(self.of.refine(), B::ABREAST)
     }

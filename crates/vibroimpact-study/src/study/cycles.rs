@@ -6,13 +6,13 @@
 //! the tiles.
 
 use super::basin::{BasinFill, Basins, MachineBasin, OscillatorBasin};
-use super::stored_motion::{StoredCycle, StoredMotion};
+use super::stored_motion::{Stored, StoredCycle};
 use super::tables::{Cells, StudyTable, Tiles};
 use crate::Unit;
 use crate::field::{Column, Field};
 use crate::grid::Grid;
 use std::collections::BTreeMap;
-use vibroimpact::verdict::{Census, CountedMotion, System, Verdict};
+use vibroimpact::verdict::{Census, CountedMotion, Verdict};
 
 /// Number of a motion that has none.
 pub(super) const NONE: i32 = -1;
@@ -34,11 +34,8 @@ pub(super) fn field(label: Field) -> Field {
 }
 
 /// The number of a motion in a tile. Cycles that the survey has not found are added to `unknown`.
-pub(super) fn number<S: System>(known: &[Verdict<S>], unknown: &mut Census<S>, found: &CountedMotion<S>) -> i32
-where
-    Verdict<S>: StoredMotion,
-{
-    if !found.verdict.is_numbered() {
+pub(super) fn number<S: Stored>(known: &[Verdict<S>], unknown: &mut Census<S>, found: &CountedMotion<S>) -> i32 {
+    if S::stored_cycle(&found.verdict).is_none() {
         return NONE;
     }
     let whole = |n: usize| i32::try_from(n).unwrap_or(i32::MAX / 2);
@@ -57,11 +54,9 @@ const fn preliminary(n: i32) -> bool {
 pub(super) const SAME: f64 = 1e-6;
 
 /// The cycles found by a survey.
-pub(super) fn survey<S: System>(found: &Census<S>) -> Vec<Verdict<S>>
-where
-    Verdict<S>: StoredMotion,
-{
-    found.motions().iter().filter(|found| found.verdict.is_numbered()).map(|found| found.verdict.clone()).collect()
+pub(super) fn survey<S: Stored>(found: &Census<S>) -> Vec<Verdict<S>> {
+    let numbered = found.motions().iter().filter(|found| S::stored_cycle(&found.verdict).is_some());
+    numbered.map(|found| found.verdict.clone()).collect()
 }
 
 /// A basin of one oscillator or of one machine, whose cycles are numbered.
@@ -82,10 +77,7 @@ impl Numbered<'_> {
 /// The number of the field that contains the numbers.
 const FIELD: usize = 1;
 
-impl<B: Basins> BasinFill<B>
-where
-    Verdict<B::System>: StoredMotion,
-{
+impl<B: Basins> BasinFill<B> {
     fn conclude<T: Tiles>(&self, grid: &Grid, tiles: &mut T) -> Result<Vec<StudyTable>, T::Error> {
         let known = self.cycles().unwrap_or_default();
         let mut cycles = known.to_vec();
@@ -131,8 +123,8 @@ where
         }
         let count = |n: i32| counts.get(&n).copied().unwrap_or(0);
         let starts: Vec<u64> = (0..cycles.len()).map(|n| i32::try_from(n).map_or(0, count)).collect();
-        let cycles: Vec<StoredCycle> = cycles.iter().filter_map(StoredMotion::stored_cycle).collect();
-        Ok(tables(&cycles, (&self.of.stops(), &starts), (grid.points() - count(BEYOND), Verdict::<B::System>::UNITS)))
+        let cycles: Vec<StoredCycle> = cycles.iter().filter_map(B::System::stored_cycle).collect();
+        Ok(tables(&cycles, (&self.of.stops(), &starts), (grid.points() - count(BEYOND), B::System::UNITS)))
     }
 }
 

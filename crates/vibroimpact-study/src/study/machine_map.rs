@@ -3,7 +3,7 @@
 use super::code::code;
 use super::fill::{Over, machine_fields, on_axis};
 use super::map::{MapFill, Mapped, Motions, side};
-use super::stored_motion::StoredMotion;
+use super::stored_motion::Stored;
 use crate::field::{Extra, Field};
 use crate::grid::Index;
 use crate::machine::MachineSource;
@@ -61,7 +61,7 @@ impl MachinesOver {
 impl Share {
     /// A motion of a machine to which this share of the starts leads.
     pub(crate) fn of_machine(machine: &Machine, verdict: &Verdict<Machine>, share: f64, fields: &[String]) -> Self {
-        let cycle = verdict.stored_cycle();
+        let cycle = Machine::stored_cycle(verdict);
         let fastest = if let Verdict::Periodic(cycle) = verdict { cycle.fastest() } else { f64::NAN };
         Self {
             label: verdict.label(),

@@ -3,7 +3,6 @@
 //! that need the whole grid, such as the number of starts that lead to each motion, are computed [at the
 //! end](Study::conclude) from all tiles.
 
-mod arrays;
 mod basin;
 mod code;
 mod cycles;
@@ -25,7 +24,6 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
-pub use arrays::StudyArrays;
 pub(crate) use basin::{BasinFill, BasinTile, Basins, MachineBasin};
 pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, REFUSED, STUCK, UNDECIDED, code, label_of, meaning_of};
 pub(crate) use fill::Fill;
@@ -36,9 +34,8 @@ pub use memory::{Sheet, check_memory, in_memory};
 pub(crate) use refine::Cell;
 pub use remarks::{closed_of, has_closed};
 pub use some_points::{PointColumns, points_until};
-pub(crate) use stored_motion::StoredMotion;
 pub(crate) use sweeps::{SweepFill, Swept, diagram_of};
-pub use tables::{Cells, EachCount, StudyTable, Tiles};
+pub use tables::{Cells, EachCount, StudyArrays, StudyTable, Tiles};
 
 use crate::diagram::Show;
 use crate::machine::MachineSource;

@@ -1,22 +1,18 @@
 //! What a store keeps of a motion: that of an oscillator, or that of a machine.
 
 use crate::Unit;
+use vibroimpact::Oscillator;
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::Verdict;
+use vibroimpact::verdict::{System, Verdict};
 
-/// A verdict that can be stored.
-pub(crate) trait StoredMotion {
+/// A system whose verdicts can be stored.
+pub(crate) trait Stored: System {
     /// The units of velocity and time.
     const UNITS: [Unit; 2];
 
     /// What the tables of numbered motions contain; `None` for a motion that its label names: all but cycles, and rests of a
     /// machine that has several stops.
-    fn stored_cycle(&self) -> Option<StoredCycle>;
-
-    /// Whether it is numbered.
-    fn is_numbered(&self) -> bool {
-        self.stored_cycle().is_some()
-    }
+    fn stored_cycle(motion: &Verdict<Self>) -> Option<StoredCycle>;
 }
 
 /// A cycle, or a rest, in the tables of a study.
@@ -31,11 +27,11 @@ pub(crate) struct StoredCycle {
     pub(super) points: Vec<[f64; 3]>,
 }
 
-impl StoredMotion for Verdict {
+impl Stored for Oscillator {
     const UNITS: [Unit; 2] = [Unit::VELOCITY, Unit::TIME];
 
-    fn stored_cycle(&self) -> Option<StoredCycle> {
-        let Self::Periodic(cycle) = self else { return None };
+    fn stored_cycle(motion: &Verdict) -> Option<StoredCycle> {
+        let Verdict::Periodic(cycle) = motion else { return None };
         let [a, b] = cycle.multipliers;
         Some(StoredCycle {
             label: cycle.label.to_string(),
@@ -46,18 +42,18 @@ impl StoredMotion for Verdict {
     }
 }
 
-impl StoredMotion for Verdict<Machine> {
+impl Stored for Machine {
     const UNITS: [Unit; 2] = [Unit::CONSISTENT; 2];
 
-    fn stored_cycle(&self) -> Option<StoredCycle> {
-        let Self::Periodic(cycle) = self else {
+    fn stored_cycle(motion: &Verdict<Self>) -> Option<StoredCycle> {
+        let Verdict::Periodic(cycle) = motion else {
             let rest = |stops| StoredCycle {
-                label: self.label().into_owned(),
+                label: motion.label().into_owned(),
                 stops,
                 multiplier: f64::NAN,
                 points: Vec::new(),
             };
-            return Some(self.closed()).filter(|stops| !stops.is_empty()).map(rest);
+            return Some(motion.closed()).filter(|stops| !stops.is_empty()).map(rest);
         };
         let ends = cycle.events.iter().skip(1).map(|event| event.time).chain([cycle.period]);
         let points = cycle.events.iter().zip(ends).map(|(event, next)| [event.phase, event.speed, next - event.time]);

@@ -1,6 +1,7 @@
-//! The final tables of a study, computed from the complete tiles.
+//! The final tables of a study, computed from the complete tiles, and access to its arrays, independent of where they are stored.
 
-use crate::{Column, Unit};
+use super::Study;
+use crate::{Column, Plan, Unit};
 
 /// A small array about the whole study, with dimensions of its own.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,4 +57,27 @@ pub trait Tiles {
     /// # Errors
     /// If it cannot be written.
     fn write(&mut self, tile: u64, field: usize, column: &Column) -> Result<(), Self::Error>;
+}
+
+/// Read access to the arrays of a study; implemented by stores.
+pub trait StudyArrays {
+    /// The error of a failed read.
+    type Error;
+
+    /// The plan of the study.
+    fn plan(&self) -> &Plan;
+
+    /// The study.
+    fn study(&self) -> &Study;
+
+    /// The whole array of a field, in row-major order (the first dimension slowest).
+    ///
+    /// # Errors
+    /// If the array cannot be read.
+    fn array(&self, field: usize) -> Result<Column, Self::Error>;
+
+    /// The number of the field with this name.
+    fn field_number(&self, name: &str) -> Option<usize> {
+        self.study().fields().iter().position(|field| field.name == name)
+    }
 }

@@ -1,14 +1,10 @@
 //! The fields and the numbers of a basin as they are stored.
 
 use super::{BasinTile, OscillatorBasin};
-use crate::Unit;
-use crate::field::{Column, Field, NumberType};
-use crate::grid::Block;
+use crate::field::Column;
 use crate::quantity::{self, Quantities};
+use crate::study::reason;
 use crate::study::refine::Cell;
-use crate::study::starts::Starts;
-use crate::study::{NOT_COMPUTED, reason};
-use vibroimpact::Start;
 use vibroimpact::math::Multiplier;
 use vibroimpact::quantities::of_verdict_only;
 use vibroimpact::verdict::{CountedMotion, Ending, Verdict};
@@ -17,7 +13,7 @@ use vibroimpact::verdict::{CountedMotion, Ending, Verdict};
 type PartOfMultipliers = (&'static str, &'static str, fn(&[Multiplier; 2]) -> f64);
 
 /// The multipliers as they are stored for points.
-const MULTIPLIERS: [PartOfMultipliers; 4] = [
+pub(super) const MULTIPLIERS: [PartOfMultipliers; 4] = [
     ("multiplier_1_re", "real part of the larger Floquet multiplier", |of| of[0].re),
     ("multiplier_1_im", "imaginary part of the larger Floquet multiplier", |of| of[0].im),
     ("multiplier_2_re", "real part of the smaller Floquet multiplier", |of| of[1].re),
@@ -25,51 +21,8 @@ const MULTIPLIERS: [PartOfMultipliers; 4] = [
 ];
 
 impl OscillatorBasin {
-    /// The fields after those of the motions, in the order of [`Self::stored_columns`].
-    pub(super) fn stored_fields(&self) -> Vec<Field> {
-        let quantities = self.asked().iter().map(|quantity| quantity::field(*quantity, &[]));
-        let mut fields: Vec<Field> = quantities.collect();
-        let number = |name: &'static str, long_name: &'static str, unit| Field::real(name, long_name, unit, &[]);
-        if self.of_points() {
-            fields.push(reason::field());
-        }
-        if self.of_systems() {
-            fields.extend(MULTIPLIERS.map(|(name, long_name, _)| number(name, long_name, Unit::NUMBER)));
-        }
-        if self.transient() {
-            let long_name = "impacts until the motion was decided";
-            let flags = [(NOT_COMPUTED, "not_computed"), (-1, "taken_from_agreeing_neighbours")];
-            fields.push(Field::integers("transient", long_name, NumberType::I32, &[], &flags));
-        }
-        if let Starts::Scattered { .. } = self.starts {
-            fields.push(number("x", "position of the start", Unit::LENGTH));
-            fields.push(number("v", "velocity of the start", Unit::VELOCITY));
-            fields.push(number("phase", "phase of the force at the start", Unit::ANGLE));
-        }
-        fields
-    }
-
-    /// Their numbers in a tile.
-    pub(super) fn stored_columns<'a>(
-        &'a self,
-        block: &Block,
-        tile: &'a BasinTile<Self>,
-        stored: &dyn Fn(&'a Verdict) -> &'a Verdict,
-    ) -> Vec<Column> {
-        let mut columns = self.quantities(tile, stored);
-        columns.extend(self.details(tile));
-        if let (Starts::Scattered { .. }, Some((osc, _))) = (&self.starts, &self.one) {
-            let starts: Vec<Start> =
-                (0..block.points()).map(|k| self.start(osc, &self.system, &block.index(k))).collect();
-            for coordinate in [|s: &Start| s.x, |s: &Start| s.v, |s: &Start| s.phase] {
-                columns.push(Column::F64(starts.iter().map(coordinate).collect()));
-            }
-        }
-        columns
-    }
-
     /// The columns of reasons, where the starts are points, of multipliers, and of the lengths of the transients.
-    fn details(&self, tile: &BasinTile<Self>) -> Vec<Column> {
+    pub(super) fn details(&self, tile: &BasinTile<Self>) -> Vec<Column> {
         let mut columns = Vec::new();
         if self.of_points() {
             columns.push(reason::column(&tile.notes.endings));
@@ -93,7 +46,11 @@ impl OscillatorBasin {
 
     /// The columns of the quantities that the plan asks for. Cells that took the motion of their neighbours have its quantities if
     /// all starts belong to one system.
-    fn quantities<'a>(&'a self, tile: &'a BasinTile<Self>, stored: &dyn Fn(&'a Verdict) -> &'a Verdict) -> Vec<Column> {
+    pub(super) fn quantities<'a>(
+        &'a self,
+        tile: &'a BasinTile<Self>,
+        stored: &dyn Fn(&'a Verdict) -> &'a Verdict,
+    ) -> Vec<Column> {
         let asked = self.asked();
         let mut columns = vec![Vec::with_capacity(tile.cells.len()); asked.len()];
         if asked.is_empty() {

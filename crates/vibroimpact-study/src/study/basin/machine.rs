@@ -117,10 +117,6 @@ impl Basins for MachineBasin {
         Some(found.cells.iter().map(|cell| cell.map(|cell| numbers[cell as usize])).collect())
     }
 
-    fn codes(_: &Self::Notes) -> Vec<i32> {
-        Vec::new()
-    }
-
     fn fields(&self) -> Vec<Field> {
         let mut fields = remarks::fields(self.machine.stops().len(), &[]);
         fields.extend(machine_fields(&self.plan.fields, &[]));

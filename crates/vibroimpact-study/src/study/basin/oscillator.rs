@@ -1,15 +1,16 @@
 //! The starts of one oscillator, or of several, over a grid or scattered.
 
+use super::columns::MULTIPLIERS;
 use super::{BasinFill, BasinTile, Basins};
-use crate::field::{Column, Field};
+use crate::field::{Column, Field, NumberType};
 use crate::grid::{Block, Grid};
 use crate::limits::MOST_STARTS;
-use crate::quantity::{Quantities, Quantity};
-use crate::study::code;
+use crate::quantity::{self, Quantities, Quantity};
 use crate::study::cycles::Numbered;
 use crate::study::fill::spread;
 use crate::study::starts::Starts;
-use crate::{BasinPlan, PlanError, SystemPlan};
+use crate::study::{NOT_COMPUTED, code, reason};
+use crate::{BasinPlan, PlanError, SystemPlan, Unit};
 use vibroimpact::lanes::Width;
 use vibroimpact::math::Multiplier;
 use vibroimpact::verdict::{Census, Ending, KnownAttractors, SettleOptions, StartBox, Verdict, settle_many};
@@ -170,7 +171,26 @@ impl Basins for OscillatorBasin {
     }
 
     fn fields(&self) -> Vec<Field> {
-        self.stored_fields()
+        let quantities = self.asked().iter().map(|quantity| quantity::field(*quantity, &[]));
+        let mut fields: Vec<Field> = quantities.collect();
+        let number = |name: &'static str, long_name: &'static str, unit| Field::real(name, long_name, unit, &[]);
+        if self.of_points() {
+            fields.push(reason::field());
+        }
+        if self.of_systems() {
+            fields.extend(MULTIPLIERS.map(|(name, long_name, _)| number(name, long_name, Unit::NUMBER)));
+        }
+        if self.transient() {
+            let long_name = "impacts until the motion was decided";
+            let flags = [(NOT_COMPUTED, "not_computed"), (-1, "taken_from_agreeing_neighbours")];
+            fields.push(Field::integers("transient", long_name, NumberType::I32, &[], &flags));
+        }
+        if let Starts::Scattered { .. } = self.starts {
+            fields.push(number("x", "position of the start", Unit::LENGTH));
+            fields.push(number("v", "velocity of the start", Unit::VELOCITY));
+            fields.push(number("phase", "phase of the force at the start", Unit::ANGLE));
+        }
+        fields
     }
 
     fn columns<'a>(
@@ -179,11 +199,16 @@ impl Basins for OscillatorBasin {
         tile: &'a BasinTile<Self>,
         stored: &dyn Fn(&'a Verdict) -> &'a Verdict,
     ) -> Vec<Column> {
-        self.stored_columns(block, tile, stored)
-    }
-
-    fn stops(&self) -> Vec<String> {
-        Vec::new()
+        let mut columns = self.quantities(tile, stored);
+        columns.extend(self.details(tile));
+        if let (Starts::Scattered { .. }, Some((osc, _))) = (&self.starts, &self.one) {
+            let starts: Vec<Start> =
+                (0..block.points()).map(|k| self.start(osc, &self.system, &block.index(k))).collect();
+            for coordinate in [|s: &Start| s.x, |s: &Start| s.v, |s: &Start| s.phase] {
+                columns.push(Column::F64(starts.iter().map(coordinate).collect()));
+            }
+        }
+        columns
     }
 
     fn numbered(of: &BasinFill<Self>) -> Numbered<'_> {
