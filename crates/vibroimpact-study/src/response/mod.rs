@@ -2,15 +2,54 @@
 //! not, on which their cycles lie.
 
 mod plan;
-mod row;
 
 pub use plan::ResponsePlan;
-pub use row::{ResponseCurves, ResponseRow};
 
 use crate::dynamics::{CycleOf, Dynamics, PointOf, Setup, not_stopped};
 use crate::orbit_line::{OrbitLine, Solution};
 use crate::{Control, Cut, RunError};
 use vibroimpact::math::sort_by;
+use vibroimpact::verdict::Stability;
+
+/// A motion of a sweep, or an orbit at a point of a branch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResponseRow {
+    /// The value of the number that varies.
+    pub value: f64,
+    /// The label of the motion.
+    pub label: String,
+    /// Whether it is a motion; a solution of the equations of a branch may pass through a stop.
+    pub admissible: bool,
+    /// Whether neighbours approach it; `None` if that is not known.
+    pub stability: Option<Stability>,
+    /// The event of the branch at this point.
+    pub event: Option<&'static str>,
+    /// All quantities, in the order of their names; not-a-number where one is not defined.
+    pub quantities: Vec<f64>,
+}
+
+impl ResponseRow {
+    /// Whether it is a motion that attracts its neighbourhood.
+    #[must_use]
+    pub fn stable(&self) -> bool {
+        self.admissible && self.stability == Some(Stability::Stable)
+    }
+}
+
+/// The response over a number. Values and quantities of an oscillator are nondimensional.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResponseCurves {
+    /// The names of the quantities, and which of them is reported.
+    pub quantities: Vec<String>,
+    /// See above.
+    pub shown: usize,
+    /// The motions of the sweep with rising values, in this order.
+    pub up: Vec<ResponseRow>,
+    /// The motions of the sweep with falling values, in this order.
+    pub down: Vec<ResponseRow>,
+    /// The branches on which cycles of the sweeps lie, from one end to the other.
+    pub branches: Vec<Vec<ResponseRow>>,
+}
 
 /// Maximum number of branches, and of points in each direction along one.
 const MOST_BRANCHES: usize = 40;
@@ -184,22 +223,6 @@ mod tests {
         assert_eq!(found.up[2].label, ranged.up[2].label);
         let plan = Plan::new(system, Task::from(listed));
         assert_eq!((Plan::from_text(&plan.to_toml()).unwrap(), plan.check()), (plan.clone(), Ok(())));
-        let twice = ResponsePlan::new(Parameter::Gap, Values::Listed(vec![0.5, 0.5]));
-        assert!(twice.check(&at_rest(&system)).unwrap_err().to_string().contains("0.5"));
-    }
-
-    /// The parameter that varies need not be in the system, and the plan is the same when it is written and read.
-    #[test]
-    fn a_plan_survives_its_text() {
-        let short = r#"{"version":1,"system":{"inverse_beta":1.3,"restitution":0.5},"task":{"response":{"vary":"gap","over":"0.5:1:3"}}}"#;
-        let plan = Plan::from_text(short).unwrap();
-        assert_eq!((plan.oscillator().unwrap().gap, plan.check()), (0.5, Ok(())));
-        assert_eq!(Plan::from_text(&plan.to_toml()).unwrap(), plan);
-        for (over, sentence) in [("1:1:1", "gap is to go from 1 to 1"), ("0:nan:3", "the plan does not read")] {
-            let text = short.replace("0.5:1:3", over);
-            let error = Plan::from_text(&text).and_then(|plan| plan.check()).unwrap_err().to_string();
-            assert!(error.starts_with(sentence), "{error}");
-        }
     }
 
     /// At S of the 1971 paper 1/1 and 2/1 coexist: the sweeps differ there, and both have a branch. Each motion of a
