@@ -2,7 +2,7 @@
 
 use crate::limits::MOST_CELLS;
 use crate::name::{Name, Renamed, Variable, renamed};
-use crate::{Parameter, PlanError, Span, StartPlan, SystemPlan, Unit};
+use crate::{Parameter, PlanError, Span, StartPlan, SystemPlan, Unit, counted};
 use core::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
@@ -181,19 +181,23 @@ impl Values {
     /// Checks a list. A range is checked when it is made.
     ///
     /// # Errors
-    /// [`PlanError::Listed`] for a list that is empty or too long, or contains a value that is not finite or occurs
+    /// [`PlanError`] for a list that is empty or too long, or contains a value that is not finite or occurs
     /// twice.
     pub fn check(&self) -> Result<(), PlanError> {
         let Self::Listed(values) = self else { return Ok(()) };
-        let bad = |wrong| PlanError::Listed { count: values.len(), most: MOST_LISTED, wrong };
+        let bad = |wrong: &str| {
+            let given = counted(values.len() as u64, "value");
+            let allowed = format!("allowed are 1 to {MOST_LISTED} finite numbers, none of them twice{wrong}");
+            PlanError::refused(format!("a list of {given} was given: {allowed}"))
+        };
         if values.is_empty() || values.len() as u64 > MOST_LISTED {
-            return Err(bad(None));
+            return Err(bad(""));
         }
         let mut sorted = values.clone();
         sort_by(&mut sorted, f64::total_cmp);
         let twice = sorted.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| pair[0]);
         match values.iter().copied().find(|v| !v.is_finite()).or(twice) {
-            Some(value) => Err(bad(Some(value))),
+            Some(value) => Err(bad(&format!(", not {value}"))),
             None => Ok(()),
         }
     }

@@ -74,6 +74,8 @@ mod stretch;
 pub mod study;
 mod system;
 mod task;
+#[cfg(test)]
+mod tests_of_plans;
 mod text;
 pub mod typed;
 mod unit;
@@ -107,7 +109,6 @@ pub use name::{Name, Variable};
 pub use orbit_line::{Along, BranchPlace, OrbitLine, Solution};
 pub use parameter::{Parameter, is_length, parameter_names};
 pub use plan::Plan;
-pub use plan_text::is_machine_plan;
 pub use points::{DrawnPoints, ListedColumn, ManyPlan, PointRange, PointRule, PointsPlan};
 pub use quantity::{Quantities, Quantity, unknown as unknown_quantity};
 pub use region::{DEFAULT_GRID, Over, RegionPlan, Regions, stability_regions};

@@ -242,47 +242,6 @@ mod tests {
     }
 
     #[test]
-    fn nonsense_is_refused_before_anything_runs() {
-        let mut beyond = plan();
-        beyond.system = SystemPlan { gap: 0.5, ..SYSTEM }.into();
-        assert!(beyond.check().unwrap_err().to_string().contains("beyond the stop"));
-        let mut twice = plan();
-        twice.system = SystemPlan { beta: Some(1.0), ..SYSTEM }.into();
-        assert_eq!(twice.check(), Err(PlanError::Frequency("twice")));
-        let mut later = plan();
-        later.version = 2;
-        assert_eq!(later.check(), Err(PlanError::Version(2)));
-        let none = Plan { task: Task::Attractors { starts: 0, seed: 0, impacts: None }, ..plan() };
-        assert!(matches!(none.check(), Err(PlanError::OutOfRange { name: "starts", .. })));
-        for (task, sentence) in [
-            (Task::Orbit { label: "3/0".into() }, "label `3/0`"),
-            (simulate(Some(0), None), "impacts = 0"),
-            (Task::Settle { start: None, impacts: Some(0) }, "impacts = 0 lies outside 1 <= impacts <= 1000000"),
-            (Task::Attractors { starts: 1, seed: 0, impacts: Some(1_000_001) }, "impacts = 1000001"),
-            (simulate(None, Some(f64::NAN)), "periods = NaN"),
-            (
-                Task::Simulate(SimulatePlan { time: Some(-1.0), ..SimulatePlan::default() }),
-                "time = -1 lies outside 0 < time <= 1e10",
-            ),
-        ] {
-            let message = Plan { task, ..plan() }.check().unwrap_err().to_string();
-            assert!(message.starts_with(sentence), "{message}");
-        }
-    }
-
-    /// Plans without a budget keep their bytes, so stores of such plans are found again.
-    #[test]
-    fn a_budget_that_is_absent_is_not_written() {
-        for text in [r#"{"settle":{"start":{"v":1.0}}}"#, r#"{"attractors":{"starts":3,"seed":1}}"#] {
-            let task: Task = serde_json::from_str(text).unwrap();
-            assert!(!serde_json::to_string(&task).unwrap().contains("impacts"));
-            let given = format!(r#"{},"impacts":70}}}}"#, text.strip_suffix("}}").unwrap());
-            let task: Task = serde_json::from_str(&given).unwrap();
-            assert!(serde_json::to_string(&task).unwrap().contains(r#""impacts":70"#));
-        }
-    }
-
-    #[test]
     fn a_plan_is_completed_as_the_command_writes_it() {
         let complete = Plan { task: simulate(None, Some(3.0)), ..plan() }.complete().unwrap().task;
         let Task::Simulate(SimulatePlan { impacts: Some(1_000_000), periods: Some(3.0), .. }) = complete else {

@@ -301,7 +301,8 @@ mod tests {
             assert!(found.existence.contains((m, f)) == (room > 0.0) || room.abs() < 1e-3, "{m} kg, {f} N: {room}");
         }
         let mixed = RegionPlan { up: over(Parameter::Gap, 0.4, 2.0), ..plan };
-        assert!(matches!(mixed.check(&at_rest(&system)), Err(PlanError::MixedPlane("gap", "mass_kg"))));
+        let mixed = mixed.check(&at_rest(&system)).unwrap_err().to_string();
+        assert!(mixed.starts_with("gap and mass_kg do not span a plane: gap is measured in units"), "{mixed}");
     }
 
     #[test]
@@ -319,23 +320,6 @@ mod tests {
             let stopped = regions(&at_rest(&system), &plan, &Control { stop: &stop, ..Control::default() });
             assert!(matches!(stopped, Err(RunError::Stopped(_))), "{stopped:?}");
         });
-    }
-
-    #[test]
-    fn a_plan_survives_json_and_nonsense_is_refused() {
-        let (system, good) = plan();
-        let whole = Plan::new(system, good.clone());
-        assert_eq!(whole.check(), Ok(()));
-        let text = serde_json::to_string(&whole).unwrap();
-        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), whole);
-        for (plan, sentence) in [
-            (RegionPlan { grid: 1, ..good.clone() }, "grid = 1 lies outside 2 <= grid <= 400"),
-            (RegionPlan { label: "inf/1".into(), ..good.clone() }, "a cycle that rests"),
-            (RegionPlan { up: good.across, ..good.clone() }, "inverse_beta and inverse_beta do not span a plane"),
-        ] {
-            let message = plan.check(&at_rest(&system)).unwrap_err().to_string();
-            assert!(message.starts_with(sentence), "{message}");
-        }
     }
 }
 

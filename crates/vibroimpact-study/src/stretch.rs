@@ -110,14 +110,18 @@ const NARROWEST: f64 = 1e-100;
 pub(crate) fn check_plane(system: &SystemPlan, one: &Stretch, two: &Stretch) -> Result<(), PlanError> {
     for stretch in [one, two] {
         if !(stretch.from.is_finite() && stretch.to.is_finite() && stretch.from < stretch.to) {
-            let name = stretch.parameter.name().into();
-            return Err(PlanError::Stretch { name, from: stretch.from, to: stretch.to });
+            return Err(PlanError::no_range(stretch.parameter.name(), (stretch.from, stretch.to)));
         }
         let least = (NARROW * stretch.from.abs().max(stretch.to.abs())).max(NARROWEST);
         if stretch.to - stretch.from < least {
-            let name = stretch.parameter.name();
+            let Stretch { parameter, from, to } = stretch;
+            let why = "is too narrow a range to follow curves through: rounding leaves no steps in it";
             // slightly more, because the message prints it with two digits
-            return Err(PlanError::Narrow { name, from: stretch.from, to: stretch.to, least: 1.05 * least });
+            let hint = format!("a width of at least {:.1e}", 1.05 * least);
+            return Err(PlanError::refused(format!(
+                "{} from {from:?} to {to:?} {why}\nhint: {hint}",
+                parameter.name()
+            )));
         }
     }
     let (p, q) = (one.parameter, two.parameter);
@@ -127,7 +131,10 @@ pub(crate) fn check_plane(system: &SystemPlan, one: &Stretch, two: &Stretch) -> 
     for (own, other) in [(p, two), (q, one)] {
         let scaled = matches!(own, Parameter::Beta | Parameter::InverseBeta | Parameter::Gap | Parameter::SecondGap);
         if let (true, Some(number)) = (scaled, other.of_body()) {
-            return Err(PlanError::MixedPlane(own.name(), number.name()));
+            let (own, number) = (own.name(), number.name());
+            let why = format!("{own} is measured in units that change with the numbers of the body");
+            let hint = format!("take frequency_hz, gap_m or second_gap_m instead of {own}");
+            return Err(PlanError::refused(format!("{own} and {number} do not span a plane: {why}\nhint: {hint}")));
         }
     }
     for x in [one.from, one.to] {
@@ -162,7 +169,7 @@ mod tests {
             assert!(message.starts_with(sentence), "{message}");
             if let Some((_, least)) = message.split_once("a width of at least ") {
                 let wide = over(one.parameter, one.from, one.from + least.parse::<f64>().unwrap());
-                let narrow = matches!(check_plane(&system, &wide, &two), Err(PlanError::Narrow { .. }));
+                let narrow = check_plane(&system, &wide, &two).is_err_and(|error| error.to_string().contains("narrow"));
                 assert!(least.len() < 9 && !narrow, "{message}");
             }
         }

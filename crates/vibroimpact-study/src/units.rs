@@ -65,7 +65,7 @@ impl UnitsPlan {
     /// Checks that all units are positive and finite, and those of the body if the system is one.
     ///
     /// # Errors
-    /// [`PlanError::OutOfRange`] or [`PlanError::NotOfBody`] for the first that is not.
+    /// [`PlanError`] for the first that is not.
     pub(crate) fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         if let Some(own) = Self::of_system(system) {
             for (name, given, own) in [
@@ -74,7 +74,7 @@ impl UnitsPlan {
                 ("mass_kg", self.mass_kg, own.mass_kg),
             ] {
                 if given != own {
-                    return Err(PlanError::NotOfBody { name, given, own });
+                    return Err(PlanError::not_of_body(name, given, own));
                 }
             }
         }
@@ -87,7 +87,9 @@ impl UnitsPlan {
                 hint: "",
             }),
             None => match self.frame.filter(|frame| !(frame.phase.is_finite() && frame.offset_m.is_finite())) {
-                Some(frame) => Err(PlanError::Frame { phase: frame.phase, offset_m: frame.offset_m }),
+                Some(FramePlan { phase, offset_m, .. }) => Err(PlanError::refused(format!(
+                    "the frame of positions and phases is not finite: phase = {phase}, offset_m = {offset_m}"
+                ))),
                 None => Ok(()),
             },
         }

@@ -29,7 +29,7 @@ impl DiagramPlan<String, String> {
     /// What is shown.
     ///
     /// # Errors
-    /// [`PlanError::MachineShow`] for a name that is none of these, [`PlanError::Unforced`] for a phase without a forcing.
+    /// [`PlanError::Refused`] for a name that is none of these, [`PlanError::Unforced`] for a phase without a forcing.
     fn shown(&self, machine: &Machine) -> Result<ShownPath, PlanError> {
         let names = &machine.parts().coordinates;
         let of = |name: &str| names.iter().position(|known| known == name);
@@ -41,8 +41,11 @@ impl DiagramPlan<String, String> {
         };
         let quantity = || machine_quantity(machine, &self.show).ok().map(|_| ShownPath::Quantity);
         let found = found.or_else(quantity);
-        let show =
-            found.ok_or_else(|| PlanError::MachineShow { given: self.show.clone(), coordinates: names.join(", ") })?;
+        let show = found.ok_or_else(|| {
+            let known = "speed, q.NAME, qdot.NAME, or a quantity by its path, as power or stop.NAME.impact_speed_max";
+            let hint = format!("{known}; the coordinates are {}", names.join(", "));
+            PlanError::refused(format!("`{}` is nothing that a diagram of a machine shows\nhint: {hint}", self.show))
+        })?;
         if matches!(show, ShownPath::Q(_) | ShownPath::Qdot(_)) && machine.period().is_none() {
             return Err(PlanError::Unforced);
         }

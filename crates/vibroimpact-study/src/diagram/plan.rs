@@ -228,7 +228,8 @@ impl SweepDirection {
 /// [`PlanError`] for an invalid list, and for a list whose values neither rise nor fall.
 pub(crate) fn check_order(over: &Values) -> Result<(), PlanError> {
     over.check()?;
-    if over.in_order() { Ok(()) } else { Err(PlanError::Order) }
+    let sentence = "the values of a diagram rise or fall, and those of the list do neither\nhint: sort them";
+    if over.in_order() { Ok(()) } else { Err(PlanError::refused(sentence)) }
 }
 
 /// Checks the lengths of a diagram: those of the transient and of what is shown, and the number of all points.
@@ -315,74 +316,5 @@ impl DiagramPlan {
     /// [`PlanError`] for a value that gives no valid system.
     pub fn system(&self, system: &SystemPlan, k: u32) -> Result<SystemPlan, PlanError> {
         system.with_all(self.cut().names().copied().zip(self.values(k)))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Plan, Task, Variable};
-
-    #[test]
-    fn a_plan_survives_json_and_short_ones_are_filled_in() {
-        let system = SystemPlan::from_inverse_beta(1.3, 0.0, 0.5);
-        let direction = SweepDirection::Scatter { starts: 9, seed: 4 };
-        let over = "0:3:601".parse::<Span>().unwrap();
-        let usual = DiagramPlan::new(Parameter::Gap, over);
-        let task = DiagramPlan { show: Show::Strobe, direction, transient: 7, keep: 3, ..usual };
-        let plan = Plan::new(system, Task::from(task));
-        let text = serde_json::to_string(&plan).unwrap();
-        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
-        let read = |text| serde_json::from_str::<DiagramPlan<Variable, ShowText>>(text).unwrap();
-        let short: DiagramPlan = read(r#"{"vary": "inverse_beta", "over": "1:2:3"}"#).typed().unwrap();
-        assert_eq!((short.direction, short.show), (SweepDirection::Both, Show::Velocity));
-        assert_eq!((short.transient, short.keep), (DEFAULT_TRANSIENT, DEFAULT_KEEP));
-        let listed = read(r#"{"vary": "gap", "over": [0.5, 0.7, 1.5]}"#);
-        assert_eq!(listed.over, Values::Listed(vec![0.5, 0.7, 1.5]));
-        assert!(serde_json::to_string(&listed).unwrap().starts_with(r#"{"vary":"gap","over":[0.5,0.7,1.5],"#));
-        for wrong in
-            [text.replace("keep", "kept"), text.replace("seed", "sed"), text.replace("gap\",\"over", "gup\",\"over")]
-        {
-            assert!(serde_json::from_str::<Plan>(&wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn nonsense_is_refused() {
-        let system = SystemPlan::from_inverse_beta(1.3, 0.0, 0.5);
-        let over = |text: &str| Values::from(text.parse::<Span>().unwrap());
-        let good = || DiagramPlan::new(Parameter::Gap, over("0:3:601"));
-        assert_eq!(good().check(&system), Ok(()));
-        for (plan, sentence) in [
-            (DiagramPlan { vary: Parameter::Beta, ..good() }, "frequency ratio beta = 0 lies outside"),
-            (DiagramPlan { vary: Parameter::Restitution, ..good() }, "restitution eps = 3 lies outside"),
-            (
-                DiagramPlan { vary: Parameter::SecondGap, ..good() },
-                "second_gap is to vary, but there is no second stop",
-            ),
-            (
-                DiagramPlan { transient: 2_000_000, ..good() },
-                "transient = 2000000 lies outside 0 <= transient <= 1000000",
-            ),
-            (
-                DiagramPlan { also: Some(Stretch { parameter: Parameter::Gap, from: 0.0, to: 1.0 }), ..good() },
-                "gap and gap cannot vary together",
-            ),
-            (DiagramPlan { keep: 0, ..good() }, "keep = 0 lies outside 1 <= keep <= 100000"),
-            (
-                DiagramPlan { direction: SweepDirection::Scatter { starts: 0, seed: 0 }, ..good() },
-                "starts = 0 lies outside",
-            ),
-            (
-                DiagramPlan { over: Values::Listed(vec![0.5, 2.0, 1.0]), ..good() },
-                "the values of a diagram rise or fall",
-            ),
-            (DiagramPlan { over: Values::Listed(vec![]), ..good() }, "a list of 0 values was given"),
-            (DiagramPlan { over: Values::Listed(vec![0.5, 0.5]), ..good() }, "a list of 2 values was given"),
-            (DiagramPlan { over: over("0:3:1000000"), ..good() }, "128 x 1000000 = 128000000 points; at most 20000000"),
-        ] {
-            let message = plan.check(&system).unwrap_err().to_string();
-            assert!(message.starts_with(sentence), "{message}");
-        }
     }
 }

@@ -47,10 +47,17 @@ pub(crate) fn refused(error: MachineError) -> PlanError {
 /// # Errors
 /// [`PlanError`] for a text that is no such label.
 pub fn machine_label(machine: &Machine, text: &str) -> Result<Label, PlanError> {
-    let given = || text.chars().take(40).collect();
+    let refused = |what: &str| {
+        let given: String = text.chars().take(40).collect();
+        PlanError::refused(format!("label `{given}` is {what}"))
+    };
     match (machine.period().is_some(), Label::unforced(text)) {
-        (false, label) => label.ok_or_else(|| PlanError::LabelUnforced(given())),
-        (true, Some(_)) => Err(PlanError::LabelForced(given())),
+        (false, label) => label.ok_or_else(|| {
+            refused("not m/T with m a whole number from 0 to 10000 (or inf/T), and the machine has no forcing\nhint: m closings in one period T of the motion, for example 2/T")
+        }),
+        (true, Some(_)) => Err(refused(
+            "one of a machine without forcing, and the machine has a forcing\nhint: m/n for m closings in n forcing periods, for example 2/1",
+        )),
         (true, None) => Ok(text.parse()?),
     }
 }
@@ -83,7 +90,8 @@ impl Dynamics for MachineSource {
 
     fn setup_of(&self, task: &Task) -> Result<Setup<'_, Self>, PlanError> {
         if task.start().is_some_and(Option::is_some) {
-            return Err(PlanError::StartTwice);
+            let sentence = "the start of a machine is its table `start`, and the task has one too";
+            return Err(PlanError::refused(sentence));
         }
         let (system, start) = self.described()?;
         Ok(Setup { written: self, system, start })
@@ -197,7 +205,7 @@ impl Dynamics for MachineSource {
         for Stretch { parameter: path, from, to } in [one, two] {
             Self::number(self, path)?;
             if !(from.is_finite() && to.is_finite() && from < to) {
-                return Err(PlanError::Stretch { name: path.clone().into(), from: *from, to: *to });
+                return Err(PlanError::no_range(path, (*from, *to)));
             }
         }
         if one.parameter == two.parameter {
@@ -240,7 +248,8 @@ impl Dynamics for MachineSource {
     }
 
     fn no_orbit(label: Label, _: usize) -> PlanError {
-        PlanError::NoMachineOrbit(label)
+        let hint = "`vibro attractors --machine` lists the stable ones";
+        PlanError::refused(format!("no orbit {label} was found at this machine\nhint: {hint}"))
     }
 
     fn settle(

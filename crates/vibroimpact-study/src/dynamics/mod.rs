@@ -249,7 +249,9 @@ impl<D: Dynamics> Setup<'_, D> {
         in_a_plane: bool,
     ) -> Result<(), PlanError> {
         match D::label(&self.system, label, in_a_plane)? {
-            None if number.is_some() => Err(PlanError::NumberWithoutLabel),
+            None if number.is_some() => Err(PlanError::refused(
+                "the number of an orbit is given without a label\nhint: orbits are numbered among those with the same label m/n",
+            )),
             _ => Ok(()),
         }
     }
@@ -268,7 +270,11 @@ impl<D: Dynamics> Setup<'_, D> {
                     let stability = Some(D::stability(&cycle));
                     Ok(Chosen { cycle, among: None, stability })
                 }
-                other => Err(PlanError::NotPeriodic(other.label().into_owned()).into()),
+                other => {
+                    let why = format!("`{}`, no cycle of events, so no branch begins there", other.label());
+                    let hint = "give the label of an orbit, or another start";
+                    Err(PlanError::refused(format!("the motion from the start is {why}\nhint: {hint}")).into())
+                }
             };
         };
         D::check_followed(&self.system, label)?;

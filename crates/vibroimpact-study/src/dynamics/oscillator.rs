@@ -155,7 +155,10 @@ impl Dynamics for SystemPlan {
     fn check_curve(kind: FollowedEvent) -> Result<(), PlanError> {
         match kind {
             FollowedEvent::Fold | FollowedEvent::Flip | FollowedEvent::Grazing => Ok(()),
-            _ => Err(PlanError::NoCurve(kind.name())),
+            _ => {
+                let known = "its curves are fold, flip and grazing";
+                Err(PlanError::refused(format!("an oscillator has no curve of {}; {known}", kind.name())))
+            }
         }
     }
 

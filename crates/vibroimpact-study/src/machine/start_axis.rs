@@ -15,7 +15,7 @@ impl StartAxis {
     /// The place with this name.
     ///
     /// # Errors
-    /// [`PlanError::MachineStartAxis`] if it is no part of a start of the machine.
+    /// [`PlanError::Refused`] if it is no part of a start of the machine.
     pub(crate) fn of(machine: &Machine, vary: &str) -> Result<Self, PlanError> {
         Self::found(machine, vary)?.ok_or_else(|| Self::unknown(machine, vary))
     }
@@ -23,7 +23,7 @@ impl StartAxis {
     /// The place with this name; `None` for the path of something else.
     ///
     /// # Errors
-    /// [`PlanError::MachineStartAxis`] for a coordinate or velocity that the machine does not have.
+    /// [`PlanError::Refused`] for a coordinate or velocity that the machine does not have.
     pub(crate) fn found(machine: &Machine, vary: &str) -> Result<Option<Self>, PlanError> {
         let names = &machine.parts().coordinates;
         let of = |name: &str| {
@@ -39,7 +39,9 @@ impl StartAxis {
     }
 
     fn unknown(machine: &Machine, vary: &str) -> PlanError {
-        PlanError::MachineStartAxis { given: vary.to_owned(), coordinates: machine.parts().coordinates.join(", ") }
+        let hint =
+            format!("q.NAME, qdot.NAME or phase; the coordinates are {}", machine.parts().coordinates.join(", "));
+        PlanError::refused(format!("`{vary}` is no part of a start\nhint: {hint}"))
     }
 
     /// Puts a value there.

@@ -58,11 +58,12 @@ impl<V: Clone + Into<Cow<'static, str>>> DrawnPoints<V> {
     pub fn check(&self) -> Result<(), PlanError> {
         let most = if self.rule == PointRule::Sobol { MOST_SOBOL } else { MOST_SIDES };
         if self.over.is_empty() || self.over.len() > most {
-            return Err(PlanError::PointSides { given: self.over.len(), most });
+            let given = self.over.len();
+            return Err(PlanError::refused(format!("ranges given: {given}; points are drawn from 1 to {most}")));
         }
         limits::check("points", self.count, 1..=MOST)?;
         match self.over.iter().find(|side| !(side.from.is_finite() && side.to.is_finite() && side.from < side.to)) {
-            Some(side) => Err(PlanError::Stretch { name: side.vary.clone().into(), from: side.from, to: side.to }),
+            Some(side) => Err(PlanError::no_range(&side.vary.clone().into(), (side.from, side.to))),
             None => Ok(()),
         }
     }

@@ -30,20 +30,20 @@ pub(super) fn length(count: u64) -> usize {
 /// # Errors
 /// [`PlanError`] for the first column that is invalid.
 pub(super) fn check<V: Clone + Into<Cow<'static, str>>>(columns: &[ListedColumn<V>]) -> Result<(), PlanError> {
-    let name = |column: &ListedColumn<V>| column.vary.clone().into();
+    let name = |column: &ListedColumn<V>| -> Cow<'static, str> { column.vary.clone().into() };
     let count = columns.first().map_or(0, |column| column.values.len());
     if count == 0 || count as u64 > MOST {
         return Err(PlanError::outside("points", count as u64, (1, MOST)));
     }
     for column in columns {
         if column.values.len() != count {
-            return Err(PlanError::PointColumns {
-                names: (name(&columns[0]), name(column)),
-                counts: (count, column.values.len()),
-            });
+            let (first, other, length) = (name(&columns[0]), name(column), column.values.len());
+            let why = "every column has one value for each point";
+            return Err(PlanError::refused(format!("{first} has {count} values and {other} has {length}: {why}")));
         }
         if let Some(k) = column.values.iter().position(|value| !value.is_finite()) {
-            return Err(PlanError::PointValue { name: name(column), value: column.values[k], point: k as u64 });
+            let (name, value) = (name(column), column.values[k]);
+            return Err(PlanError::refused(format!("{name} = {value} is not finite")).at_point(k));
         }
     }
     Ok(())

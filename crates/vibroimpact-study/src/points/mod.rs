@@ -164,7 +164,7 @@ impl PointsPlan {
                 let there = system.with_all(self.parameters(k))?;
                 valid(&there, &self.start_in((system, &there), start, k))
             };
-            here().map_err(|error| PlanError::AtPoint { point: k as u64, error: Box::new(error) })
+            here().map_err(|error| error.at_point(k))
         })
     }
 

@@ -6,8 +6,8 @@
 mod double;
 mod even;
 
-use crate::PlanError;
 use crate::typed::decimal;
+use crate::{PlanError, counted};
 use core::fmt;
 use core::str::FromStr;
 use even::Rule;
@@ -49,7 +49,7 @@ impl Span {
     /// `count` values from `first` to `last` with a constant ratio.
     ///
     /// # Errors
-    /// As for [`Span::new`]; and [`PlanError::Logarithmic`] if an end is not positive.
+    /// As for [`Span::new`]; and [`PlanError::Refused`] if an end is not positive.
     pub fn logarithmic(first: f64, last: f64, count: u32) -> Result<Self, PlanError> {
         Self::checked(first, last, count, true)
     }
@@ -60,12 +60,13 @@ impl Span {
             return Err(PlanError::Range { given: given() });
         }
         if logarithmic && (first <= 0.0 || last <= 0.0) {
-            return Err(PlanError::Logarithmic { given: given() });
+            let sentence = format!("range `{}` is logarithmic, so both ends must be positive", given());
+            return Err(PlanError::refused(sentence));
         }
         // one value over a distance, or several at one place, is an error of the user
         let many = u64::from(count);
         if !(1..=MOST).contains(&many) || (count == 1) != (first == last) {
-            return Err(PlanError::Count { given: given(), count: many, most: MOST });
+            return Err(wrong_count(&given(), many));
         }
         let rule = if logarithmic { Rule::geometric(first, last) } else { Rule::even(first, last, count - 1) };
         Ok(Self { first, last, count, rule })
@@ -115,6 +116,12 @@ impl Span {
     }
 }
 
+/// The error of a range with too few or too many values.
+fn wrong_count(given: &str, count: u64) -> PlanError {
+    let asked = format!("range `{given}` asks for {}", counted(count, "value"));
+    PlanError::refused(format!("{asked}; allowed is 1 to {MOST}, and 1 only when A = B"))
+}
+
 /// The text of a range.
 fn written(first: f64, last: f64, count: u32, logarithmic: bool) -> String {
     format!("{first}:{last}:{count}{}", if logarithmic { ":log" } else { "" })
@@ -143,7 +150,7 @@ impl FromStr for Span {
         let count: u64 = count.trim().parse().map_err(|_| bad())?;
         let (first, last) = (number(first)?, number(last)?);
         let Ok(count) = u32::try_from(count) else {
-            return Err(PlanError::Count { given: text.to_owned(), count, most: MOST });
+            return Err(wrong_count(text, count));
         };
         Self::checked(first, last, count, logarithmic)
     }

@@ -21,11 +21,13 @@ pub struct Sheet {
 /// Checks that one run can keep all numbers of a study in memory.
 ///
 /// # Errors
-/// [`PlanError::Memory`] if there are too many.
+/// [`PlanError::Refused`] if there are too many.
 pub fn check_memory(study: &Study) -> Result<(), PlanError> {
     let width = study.fields().iter().map(|field| field.width() as u64).sum::<u64>();
     let numbers = width.saturating_mul(study.grid().points());
-    if numbers > 4 * MOST_CELLS { Err(PlanError::Memory { numbers, most: 4 * MOST_CELLS }) } else { Ok(()) }
+    let (most, hint) = (4 * MOST_CELLS, "give a store, which holds any number");
+    let sentence = || format!("{numbers} numbers would have to be kept; at most {most} fit\nhint: {hint}");
+    if numbers > most { Err(PlanError::refused(sentence())) } else { Ok(()) }
 }
 
 /// Computes all tiles of a study and joins them.

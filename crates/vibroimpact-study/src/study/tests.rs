@@ -327,28 +327,3 @@ fn points_with_axes() {
         assert_eq!(columns(&found, "label").whole()[6 * k..6 * k + 6], *columns(&alone, "label").whole());
     }
 }
-
-#[test]
-fn points_that_make_no_sense() {
-    let start = StartPlan::default();
-    let listed = |vary, values: Vec<f64>| ListedColumn { vary, values };
-    let gap = Coordinate::Parameter(Parameter::Gap);
-    let of = |columns| Plan::new(S, Task::from(BasinPlan::of_points(PointsPlan::Listed(columns), start)));
-    for (plan, sentence) in [
-        (of(vec![]), "points = 0 lies outside 1 <= points <= 1000000000"),
-        (of(vec![listed(gap, vec![1.0]), listed(Coordinate::V, vec![1.0, 2.0])]), "gap has 1 values and v has 2"),
-        (of(vec![listed(Coordinate::V, vec![0.0, f64::INFINITY])]), "v = inf is not finite (point 1)"),
-        (of(vec![listed(Coordinate::X, vec![0.0, 0.8])]), "start x = 0.8 lies beyond the stop"),
-        (of(vec![listed(gap, vec![1.0]), listed(gap, vec![1.0])]), "gap and gap do not span a plane"),
-    ] {
-        let message = plan.check().unwrap_err().to_string();
-        assert!(message.starts_with(sentence), "{message}");
-    }
-    let refined = BasinPlan { refine: Some(4), ..BasinPlan::of_points(some_points(), start) };
-    assert_eq!(Plan::new(S, Task::from(refined)).check(), Err(PlanError::PointsRefined));
-    let fine = Plan::new(S, Task::from(BasinPlan::of_points(some_points(), start)));
-    assert!(matches!(crate::run(&fine, &Control::default()), Err(crate::RunError::Plan(PlanError::WrongAxis { .. }))));
-    for text in [fine.to_toml(), serde_json::to_string(&fine).unwrap()] {
-        assert_eq!(Plan::from_text(&text).unwrap(), fine);
-    }
-}
