@@ -36,7 +36,7 @@
 //! | parts of tiles that are computed point after point | `begun.rs` |
 //! | filling tiles by several threads until all are complete, or the time is spent | `run.rs` |
 //! | which tiles come first | `order.rs` |
-//! | the processor time of each tile, beside the store | `costs.rs`, `clock.rs`, `tile_costs.rs` |
+//! | the processor time of each tile, beside the store | `costs.rs`, `clock.rs` |
 //! | the final tables | `conclude.rs` |
 //! | how often each number occurs in a field | `count.rs` |
 //! | equal chunks, which are compressed once | `recent.rs` |
@@ -58,7 +58,6 @@ mod count;
 mod described;
 mod error;
 mod estimate;
-mod handle;
 mod held;
 mod layout;
 mod memory;
@@ -71,21 +70,19 @@ mod run;
 mod sharded;
 mod shards;
 mod shelf;
-mod tile_costs;
 
 #[cfg(feature = "s3")]
 pub use bucket::Bucket;
 pub use check::{Damage, Progress, Verified};
+pub use costs::{RegionCost, TileCosts};
 pub use error::StoreError;
 pub use estimate::{Estimate, Sampling, estimate};
-pub use handle::{FORMAT, Store};
 pub use memory::Memory;
 pub use run::{Part, Ran};
 pub use shelf::{Folder, Item, Shelf};
-pub use tile_costs::{RegionCost, TileCosts};
 
 use begun::BEGUN;
-use handle::{PLAIN, VERSION};
+use costs::Costs;
 use layout::Layout;
 use root::{Found, ROOT, read_root};
 use serde_json::Value;
@@ -96,6 +93,26 @@ use std::sync::Arc;
 use vibroimpact_study::Column;
 use vibroimpact_study::Plan;
 use vibroimpact_study::study::{Cells, Study};
+
+/// The latest format of stores that this program knows: 1 without shards, 2 with shards. A store with a later format is
+/// refused.
+pub const FORMAT: u64 = 2;
+/// The format of stores whose tiles are files of their own.
+pub(crate) const PLAIN: u64 = 1;
+/// The version of this program.
+pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// A study and the place where it is stored.
+pub struct Store {
+    pub(crate) shelf: Arc<dyn Shelf>,
+    pub(crate) plan: Plan,
+    pub(crate) study: Study,
+    pub(crate) layout: Layout,
+    /// The version that began it.
+    pub(crate) begun_by: String,
+    /// The costs of its tiles, if they are recorded.
+    pub(crate) costs: Option<Costs>,
+}
 
 /// The shelf at a place: a folder or `s3://bucket/prefix`.
 ///

@@ -8,7 +8,7 @@
 
 mod common;
 
-use common::{all_plans, basin, control, map, sharded, stopped, whole};
+use common::{all_plans, control, map, whole};
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{Read, Write};
@@ -138,6 +138,8 @@ fn a_bucket_is_a_place_like_a_folder() {
     let count = |prefix| shelf.list(prefix).unwrap().len();
     assert_eq!((count("a"), count("a/"), count("a/c/"), count("a/c/1"), count("b")), (122, 121, 120, 31, 0));
     assert_eq!(shelf.list("a/c/119/").unwrap()[0].size, 5);
+    shelf.remove("a/c/119/0").unwrap();
+    assert_eq!((shelf.get("a/c/119/0").unwrap(), count("a/c/")), (None, 119));
     // the bucket as a whole
     let bucket = server.shelf("s3://studies");
     assert_eq!(bucket.get("a/a/c/7/0").unwrap().as_deref(), Some(b"chunk".as_slice()));
@@ -161,42 +163,6 @@ fn the_same_bytes_as_in_a_folder() {
         let again = Store::open(server.shelf(place)).unwrap();
         assert_eq!(again.run(Part::ALL, &control(2)).unwrap().computed, 0);
         assert_eq!(again.verify(3, 0, &control(2)).unwrap().damage, []);
-    }
-}
-
-#[test]
-fn stopped_and_resumed_it_is_the_same() {
-    let Some(server) = Server::start() else { return };
-    let [of_basin, _] = sharded();
-    for (plan, place) in [(basin(), "s3://studies/basin"), (of_basin, "s3://studies/sharded")] {
-        let (_kept, want) = whole(&plan);
-        let stops = stopped(|| server.open(place, &plan), 400, 2);
-        assert!(stops > 1, "{stops}");
-        assert!(objects(server.shelf(place).as_ref()) == want, "{place}");
-    }
-}
-
-#[test]
-fn damage_is_found_and_mended() {
-    let Some(server) = Server::start() else { return };
-    for (plan, place) in all_plans().into_iter().zip(PLACES) {
-        let (_kept, want) = whole(&plan);
-        server.open(place, &plan).run(Part::ALL, &control(2)).unwrap();
-        let shelf = server.shelf(place);
-        let files: Vec<&String> = want.keys().filter(|key| key.starts_with("label/c/")).collect();
-        for (k, key) in files.iter().copied().enumerate() {
-            let bytes = &want[key];
-            match k % 3 {
-                0 => shelf.put(key, &bytes[..bytes.len() / 2]).unwrap(),
-                1 => shelf.put(key, &bytes.iter().map(|byte| byte ^ 4).collect::<Vec<u8>>()).unwrap(),
-                _ => shelf.remove(key).unwrap(),
-            }
-        }
-        let store = Store::open(server.shelf(place)).unwrap();
-        let tiles = store.study().grid().tiles();
-        assert_eq!(store.verify(0, 0, &control(2)).unwrap().damage.len() as u64, tiles);
-        assert_eq!(store.run(Part::ALL, &control(2)).unwrap().mended, tiles);
-        assert!(objects(shelf.as_ref()) == want, "{place}");
     }
 }
 
