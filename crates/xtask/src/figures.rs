@@ -1,4 +1,5 @@
-//! `cargo xtask figures`: draws the figures of the README again, with the command named in the README.
+//! `cargo xtask figures`: draws the figures of the README again, with the command named in the README. `cargo xtask line`:
+//! computes the worked study of `docs/orbits.md`, its table and its figure.
 
 use std::fs;
 use std::path::Path;
@@ -21,4 +22,13 @@ pub(crate) fn draw(root: &Path) -> Result<String, String> {
         fs::copy(out.join(from), root.join(to)).map_err(|error| format!("{from} cannot be copied to {to}: {error}"))?;
     }
     Ok(format!("{} picture(s) drawn", PICTURES.len()))
+}
+
+/// Runs the program that writes the worked study.
+///
+/// # Errors
+/// A message that names the step that failed.
+pub(crate) fn line(root: &Path) -> Result<String, String> {
+    command::run(command::words(root, "cargo run --release -p fukaya-irie-1971 --example line"))?;
+    Ok("docs/orbits.md and docs/line.png written".to_owned())
 }

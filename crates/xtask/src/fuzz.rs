@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use crate::command;
-use crate::finish::finish;
+use crate::finish;
 
 /// Builds the command and the driver in the form that the tests of the workspace need.
 const BUILD: &str = "cargo test --workspace --no-run --test cli --test fuzz";

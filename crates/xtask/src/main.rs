@@ -10,10 +10,8 @@ mod docs;
 mod examples;
 mod explorer;
 mod figures;
-mod finish;
 mod fuzz;
 mod licences;
-mod line;
 mod python;
 mod release;
 mod s3;
@@ -24,7 +22,6 @@ mod venv;
 mod wasm;
 mod words;
 
-use finish::finish;
 use std::process::ExitCode;
 
 const USAGE: &str = "\
@@ -68,7 +65,7 @@ fn main() -> ExitCode {
         },
         ["docs"] => finish(docs::build(&root)),
         ["figures"] => finish(figures::draw(&root)),
-        ["line"] => finish(line::write(&root)),
+        ["line"] => finish(figures::line(&root)),
         ["python"] => finish(python::install(&root)),
         ["licences"] => finish(licences::check(&root)),
         ["words"] => finish(words::check(&root)),
@@ -86,6 +83,20 @@ fn main() -> ExitCode {
         }
         [] => bad_question("no command is given"),
         other => bad_question(&format!("`{}` is not a command of xtask", other.join(" "))),
+    }
+}
+
+/// Prints the result of a check, and converts it to an exit status.
+fn finish(outcome: Result<String, String>) -> ExitCode {
+    match outcome {
+        Ok(sentence) => {
+            println!("{sentence}");
+            ExitCode::SUCCESS
+        }
+        Err(sentence) => {
+            eprintln!("{sentence}");
+            ExitCode::FAILURE
+        }
     }
 }
 
