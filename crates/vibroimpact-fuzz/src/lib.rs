@@ -17,7 +17,6 @@
 pub mod case;
 pub mod command;
 pub mod driver;
-pub mod family;
 pub mod limits;
 pub mod machines;
 pub mod options;
@@ -30,5 +29,4 @@ pub mod values;
 pub mod verdicts;
 pub mod worker;
 
-pub use family::Family;
-pub use options::FuzzOptions;
+pub use options::{Family, FuzzOptions};
