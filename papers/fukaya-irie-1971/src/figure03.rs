@@ -39,7 +39,7 @@ pub(crate) fn run(run: &mut Run<'_>, grid: &Grid) -> Result<(), Error> {
     let none = tally(&|label| label == "0");
     let chaotic = tally(&|label| label == "chaotic");
     let others = tally(&|label| !simple(label) && label != "0" && label != "chaotic");
-    let part = |(same, all): (usize, usize)| format!("{same} of {all} ({})", looks::percent(ratio(same, all)));
+    let part = |(same, all): (usize, usize)| format!("{same} of {all} ({})", looks::percent(looks::ratio(same, all)));
     let invented = pairs.iter().filter(|(ours, rule)| *ours == "0" && rule.contains('/')).count();
     let in_chaos = pairs.iter().filter(|(ours, rule)| *ours == "chaotic" && rule.contains('/')).count();
     let multiple: Vec<_> = pairs.iter().filter(|(ours, rule)| repeated(ours, rule)).collect();
@@ -63,7 +63,7 @@ pub(crate) fn run(run: &mut Run<'_>, grid: &Grid) -> Result<(), Error> {
             part(none),
             part(chaotic)
         ),
-        Agreement::of(ratio(all.0, all.1) > 0.95, ratio(few.0, few.1) > 0.8),
+        Agreement::of(looks::ratio(all.0, all.1) > 0.95, looks::ratio(few.0, few.1) > 0.8),
     );
     section.claim(
         "3",
@@ -80,11 +80,6 @@ pub(crate) fn run(run: &mut Run<'_>, grid: &Grid) -> Result<(), Error> {
     );
     run.report.sections.push(section);
     Ok(())
-}
-
-#[allow(clippy::cast_precision_loss)] // counts of starts
-fn ratio(part: usize, all: usize) -> f64 {
-    part as f64 / all.max(1) as f64
 }
 
 /// The verdict of the rule as a label, `unstable`, `none` or `sticks`.

@@ -34,6 +34,12 @@ pub(crate) fn column(panel: vibroimpact_plot::Panel, height: f64) -> Figure {
     Figure::new(panel).size(vibroimpact_plot::COLUMN, height)
 }
 
+/// A part of a count.
+#[allow(clippy::cast_precision_loss)] // counts of points and starts
+pub(crate) fn ratio(part: usize, all: usize) -> f64 {
+    part as f64 / all.max(1) as f64
+}
+
 /// The text of a share: `12.3 %`, with more digits for small shares, and never rounded to 0 or 100.
 pub(crate) fn percent(share: f64) -> String {
     let p = 100.0 * share;

@@ -14,15 +14,8 @@ pub(crate) struct Part {
     pub(crate) window: String,
 }
 
-impl Part {
-    /// Where a label was found, beginning with the point with the largest share: `5/8 at 7 points, most of the starts
-    /// (100 %) at (0.4, 0.375)`.
-    pub(crate) fn found(&self, label: &str) -> Option<String> {
-        told(&self.grid, label)
-    }
-}
-
-/// Where a label was found on a grid.
+/// Where a label was found on a grid, beginning with the point with the largest share: `5/8 at 7 points, from 100 % of the starts
+/// at (0.4, 0.375)`.
 pub(crate) fn told(grid: &Grid, label: &str) -> Option<String> {
     let mut at: Vec<_> = grid.with(label).collect();
     sort_by(&mut at, |a, b| b.1.total_cmp(&a.1));

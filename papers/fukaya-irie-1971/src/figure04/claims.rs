@@ -19,11 +19,6 @@ pub(super) fn add(section: &mut Section, grid: &Grid, plane: &Plane) {
     above(section, grid);
 }
 
-#[allow(clippy::cast_precision_loss)] // counts of points
-fn ratio(part: usize, all: usize) -> f64 {
-    part as f64 / all.max(1) as f64
-}
-
 fn points(section: &mut Section) {
     let above: Vec<String> =
         scenario::PAPER.iter().filter(|p| p.gap > free_amplitude(p.inverse_beta)).map(|p| p.name.to_owned()).collect();
@@ -66,7 +61,7 @@ fn theory(section: &mut Section, grid: &Grid, plane: &Plane) {
         let stable: Vec<&Point> = grid.points.iter().filter(|p| region.holds(p.inverse_beta, p.gap)).collect();
         let reached = stable.iter().filter(|p| p.motions.iter().any(|found| found.verdict.label() == label)).count();
         let outside = grid.with(&label).filter(|(p, _)| !region.holds(p.inverse_beta, p.gap)).count();
-        let part = ratio(reached, stable.len());
+        let part = looks::ratio(reached, stable.len());
         all &= outside == 0 && part > 0.9;
         most &= outside <= 2 && part > 0.7;
         parts.push(format!(
@@ -142,7 +137,8 @@ fn right(section: &mut Section, grid: &Grid, plane: &Plane) {
         }
     }
     let inside = places.iter().filter(|(x, gap)| *x >= 1.5 && *gap >= 1.0).count();
-    let named: Vec<Option<String>> = ["3/2", "4/3"].iter().map(|label| plane.right.found(label)).collect();
+    let named: Vec<Option<String>> =
+        ["3/2", "4/3"].iter().map(|label| search::told(&plane.right.grid, label)).collect();
     let on_grid = search::told(grid, "4/3").map_or_else(
         || {
             let rule = ruled(grid, "4/3");
@@ -188,7 +184,7 @@ fn lower_left(section: &mut Section, grid: &Grid, plane: &Plane) {
             format!("{label}: {}", looks::list(&here, 4))
         })
         .collect();
-    let finer: Vec<Option<String>> = named.iter().map(|label| plane.lower_left.found(label)).collect();
+    let finer: Vec<Option<String>> = named.iter().map(|label| search::told(&plane.lower_left.grid, label)).collect();
     let missing: Vec<String> =
         named.iter().zip(&finer).filter(|(_, found)| found.is_none()).map(|(label, _)| (*label).to_owned()).collect();
     section.claim(
