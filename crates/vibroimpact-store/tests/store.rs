@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{Access, S, again, all_plans, basin, control, files, map, open, stopped, watched, whole};
+use common::{Access, S, again, all_plans, basin, control, files, map, open, sharded, stopped, watched, whole};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -66,12 +66,14 @@ fn every_kind_of_study_is_stored() {
 
 #[test]
 fn stopped_and_resumed_it_is_the_same() {
-    let plan = basin();
-    let (_kept, want) = whole(&plan);
-    let folder = tempfile::tempdir().unwrap();
-    let stops = stopped(|| open(folder.path(), &plan), 300, 2);
-    assert!(stops > 1, "{stops}");
-    assert!(files(folder.path()) == want);
+    let [of_basin, _] = sharded();
+    for plan in [basin(), of_basin] {
+        let (_kept, want) = whole(&plan);
+        let folder = tempfile::tempdir().unwrap();
+        let stops = stopped(|| open(folder.path(), &plan), 300, 2);
+        assert!(stops > 1, "{stops}");
+        assert!(files(folder.path()) == want);
+    }
 }
 
 /// With refinement most points are not computed, but all count in the progress. When a run is stopped, the points of
