@@ -233,15 +233,6 @@ mod tests {
     }
 
     #[test]
-    fn a_plan_survives_json() {
-        let text = serde_json::to_string(&plan()).unwrap();
-        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan());
-        assert!(plan().check().is_ok());
-        let misspelt = text.replace("restitution", "restituton");
-        assert!(serde_json::from_str::<Plan>(&misspelt).unwrap_err().to_string().contains("restituton"));
-    }
-
-    #[test]
     fn a_plan_is_completed_as_the_command_writes_it() {
         let complete = Plan { task: simulate(None, Some(3.0)), ..plan() }.complete().unwrap().task;
         let Task::Simulate(SimulatePlan { impacts: Some(1_000_000), periods: Some(3.0), .. }) = complete else {

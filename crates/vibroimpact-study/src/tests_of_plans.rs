@@ -18,7 +18,7 @@ fn tasks_are_written_as_they_are_read() {
         r#"{"margins":{"label":"1/1","vary":[{"parameter":"gap","scale":0.1}],"within":2.0}}"#,
         r#"{"region":{"label":"1/1","across":{"parameter":"inverse_beta","from":1.05,"to":1.2},"up":{"parameter":"gap","from":1.0,"to":2.5},"grid":5}}"#,
         r#"{"response":{"vary":"gap","over":[0.5,1.5,0.75],"quantity":"power","impacts":70}}"#,
-        r#"{"map":{"axes":[{"vary":"gap","over":"0:1:3"}],"starts":2,"seed":1,"refine":4,"impacts":70,"fields":["power"]}}"#,
+        r#"{"map":{"axes":[{"vary":"gap","over":"0.1:10:5:log"}],"starts":2,"seed":1,"refine":4,"impacts":70,"fields":["power"]}}"#,
         r#"{"basin":{"axes":[{"vary":"v","over":[0.5,0.25]}],"start":{"v":0.0,"phase":0.5},"transient":true}}"#,
         r#"{"basin":{"points":{"listed":[{"vary":"gap","values":[1.0,2.0]},{"vary":"v","values":[0.5,-1.0]}]}}}"#,
         r#"{"settle_many":{"points":{"drawn":{"rule":"lhs","count":5,"seed":2,"over":[{"vary":"q.head","from":0.75,"to":1.5}]}}}}"#,

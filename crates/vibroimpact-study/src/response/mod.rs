@@ -188,7 +188,7 @@ mod tests {
         super::response(&problem, plan, control)
     }
 
-    use crate::{Parameter, Plan, Span, Task, Values};
+    use crate::{Parameter, Span, Values};
 
     /// A damped oscillator with a wide gap has the classical response of a linear oscillator.
     #[test]
@@ -209,7 +209,7 @@ mod tests {
         }
     }
 
-    /// Listed values in any order are swept as they rise and fall, and the plan is the same when it is written and read.
+    /// Listed values in any order are swept as they rise and fall.
     #[test]
     fn listed_values() {
         let system = SystemPlan::from_inverse_beta(1.3, 0.5, 0.5);
@@ -221,8 +221,6 @@ mod tests {
         let even = ResponsePlan::new(Parameter::Gap, "0.5:1.5:5".parse::<Span>().unwrap());
         let ranged = response(&system, &even, &Control::default()).unwrap();
         assert_eq!(found.up[2].label, ranged.up[2].label);
-        let plan = Plan::new(system, Task::from(listed));
-        assert_eq!((Plan::from_text(&plan.to_toml()).unwrap(), plan.check()), (plan.clone(), Ok(())));
     }
 
     /// At S of the 1971 paper 1/1 and 2/1 coexist: the sweeps differ there, and both have a branch. Each motion of a

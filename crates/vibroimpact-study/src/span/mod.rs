@@ -211,22 +211,4 @@ mod refusals {
     fn the_minus_sign_of_typeset_text_is_a_minus_sign() {
         assert_eq!("\u{2212}3:\u{2212}1:3".parse(), Span::new(-3.0, -1.0, 3));
     }
-
-    #[test]
-    fn both_ends_are_exact_and_descending_is_fine() {
-        let span = Span::new(2.0, 0.3, 18).unwrap();
-        let values: Vec<f64> = span.values().collect();
-        assert_eq!((values[0], values[17], values.len()), (2.0, 0.3, 18));
-        let paper: Vec<f64> = Span::new(0.4, 2.0, 33).unwrap().values().collect();
-        assert_eq!((paper[1], paper[16], paper[28]), (0.45, 1.2, 1.8));
-        let widest = Span::new(-1.7e308, 1.7e308, 3).unwrap();
-        assert_eq!(widest.values().nth(1), Some(0.0));
-        let logarithmic: Span = "1e3:1e-3:7:log".parse().unwrap();
-        assert_eq!(
-            (logarithmic.at(0), logarithmic.at(6), logarithmic.to_string()),
-            (1e3, 1e-3, "1000:0.001:7:log".into())
-        );
-        assert!((logarithmic.at(3) - 1.0).abs() < 1e-15);
-        assert_eq!(Span::new(1.5, 1.5, 1).unwrap().values().collect::<Vec<_>>(), [1.5]);
-    }
 }

@@ -108,6 +108,7 @@ fn f07c_the_examples() {
     assert_eq!(all("-0.4:0.7:13")[0], -0.4);
     let inverse = all("0.4:2:13");
     assert_eq!((inverse[0], inverse[6], inverse[12]), (0.4, 1.2, 2.0));
+    assert_eq!(all("1.5:1.5:1"), [1.5]);
     assert_eq!(all("-0.1:0.3:5"), [-0.1, 0.0, 0.1, 0.2, 0.3]);
     assert_eq!(all("0.1:0.7:7"), [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]);
     assert_eq!(all("1e-5:5e-5:5"), [1e-5, 2e-5, 3e-5, 4e-5, 5e-5]);

@@ -1,6 +1,5 @@
 //! The tiles of a basin of any system: for each start, the motion to which it leads.
 
-mod columns;
 mod machine;
 mod oscillator;
 mod settling;
