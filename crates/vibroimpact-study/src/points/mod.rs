@@ -5,7 +5,6 @@
 mod drawn;
 mod listed;
 mod many;
-mod over;
 mod rule;
 
 pub use drawn::{DrawnPoints, PointRange};
@@ -15,9 +14,10 @@ pub use rule::PointRule;
 
 use crate::axis::none_twice;
 use crate::name::{Name, Renamed, Variable};
-use crate::{Coordinate, Parameter, PlanError, StartPlan, SystemPlan};
+use crate::{Control, Coordinate, Parameter, PlanError, RunError, StartPlan, SystemPlan, tiles};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
+use vibroimpact::{Oscillator, Start};
 
 /// Points of a study.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -31,6 +31,8 @@ pub enum PointsPlan<V = Coordinate> {
 
 /// The name of the dimension of points.
 pub(crate) const DIMENSION: &str = "sample";
+/// Number of points of a tile.
+const TILE: u64 = 32;
 
 impl PointsPlan<Variable> {
     /// The points with the names of a system.
@@ -185,5 +187,40 @@ impl PointsPlan {
         let start = self.start(start, k);
         let (x, v) = systems.0.state_in(systems.1, (start.x.unwrap_or(0.0), start.v));
         StartPlan { x: start.x.map(|_| x), v, ..start }
+    }
+
+    /// The oscillator and the start at point number `k`; other numbers are those of `system` and `start`.
+    ///
+    /// # Errors
+    /// [`PlanError`] for an invalid system or start.
+    pub fn problem(&self, system: &SystemPlan, start: &StartPlan, k: usize) -> Result<(Oscillator, Start), PlanError> {
+        let there = if self.one_system() { *system } else { system.with_all(self.parameters(k))? };
+        let osc = there.oscillator()?;
+        Ok((osc, self.start_in((system, &there), start, k).start(&osc)?))
+    }
+
+    /// The results of `work` at all points, in order.
+    ///
+    /// # Errors
+    /// [`RunError`] for the first invalid point, or when stopped.
+    pub fn each<T: Send>(
+        &self,
+        (system, start): (&SystemPlan, &StartPlan),
+        control: &Control<'_>,
+        work: impl Fn(&Oscillator, Start) -> T + Sync,
+    ) -> Result<Vec<T>, RunError> {
+        self.check(system, start, |there, start| start.start(&there.oscillator()?).map(|_| ()))?;
+        let parts = tiles(self.count(), TILE, control, |range, tick| {
+            let mut found = Vec::new();
+            for k in range {
+                let problem = self.problem(system, start, usize::try_from(k).unwrap_or(usize::MAX));
+                found.push(problem.map(|(osc, start)| work(&osc, start)));
+                if tick() {
+                    break;
+                }
+            }
+            found
+        })?;
+        parts.into_iter().flatten().map(|found| found.map_err(RunError::from)).collect()
     }
 }
