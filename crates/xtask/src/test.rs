@@ -77,18 +77,6 @@ impl Step {
         Self { name, alone, work, fast: false, long: false, beside: false }
     }
 
-    const fn command(name: &'static str, alone: &'static str) -> Self {
-        Self::new(name, alone, Work::Command)
-    }
-
-    const fn tests(name: &'static str, alone: &'static str) -> Self {
-        Self::new(name, alone, Work::Tests)
-    }
-
-    const fn check(name: &'static str, alone: &'static str, run: fn(&Path) -> Result<String, String>) -> Self {
-        Self::new(name, alone, Work::Check(run))
-    }
-
     const fn fast(self) -> Self {
         Self { fast: true, ..self }
     }
@@ -116,28 +104,29 @@ fn steps(nextest: bool, python: bool) -> Vec<Step> {
         "cargo test --workspace --no-fail-fast"
     };
     let mut steps = vec![
-        Step::check("tools", "rustup component add rustfmt clippy", tools::ensure).fast(),
-        Step::command("format", "cargo fmt --all --check").fast(),
-        Step::check("licences", "cargo xtask licences", licences::check),
-        Step::check("words", "cargo xtask words", words::check),
-        Step::command("lints", "cargo clippy --workspace --all-targets --all-features -- -D warnings").fast(),
-        Step::tests("tests", tests).fast(),
+        Step::new("tools", "rustup component add rustfmt clippy", Work::Check(tools::ensure)).fast(),
+        Step::new("format", "cargo fmt --all --check", Work::Command).fast(),
+        Step::new("licences", "cargo xtask licences", Work::Check(licences::check)),
+        Step::new("words", "cargo xtask words", Work::Check(words::check)),
+        Step::new("lints", "cargo clippy --workspace --all-targets --all-features -- -D warnings", Work::Command)
+            .fast(),
+        Step::new("tests", tests, Work::Tests).fast(),
         // as soon as the command is built
-        Step::tests("explorer", "cargo xtask explorer").beside(),
-        Step::tests(DOC_TESTS, "cargo test --workspace --doc --no-fail-fast"),
-        Step::check("examples", "cargo xtask examples", examples::run),
+        Step::new("explorer", "cargo xtask explorer", Work::Tests).beside(),
+        Step::new(DOC_TESTS, "cargo test --workspace --doc --no-fail-fast", Work::Tests),
+        Step::new("examples", "cargo xtask examples", Work::Check(examples::run)),
         // the same cases in every run, so that a failure is caused by a change of the code
-        Step::tests("fuzz", "cargo xtask fuzz --seconds 6 --seed 1"),
-        Step::check("documentation", "cargo xtask docs", docs::build),
-        Step::check("WebAssembly", "cargo xtask wasm", wasm::check).long(),
-        Step::check(PYTHON_PACKAGE, "cargo xtask python", python::install),
-        Step::tests("buckets", "cargo xtask s3").long(),
+        Step::new("fuzz", "cargo xtask fuzz --seconds 6 --seed 1", Work::Tests),
+        Step::new("documentation", "cargo xtask docs", Work::Check(docs::build)),
+        Step::new("WebAssembly", "cargo xtask wasm", Work::Check(wasm::check)).long(),
+        Step::new(PYTHON_PACKAGE, "cargo xtask python", Work::Check(python::install)),
+        Step::new("buckets", "cargo xtask s3", Work::Tests).long(),
     ];
     if !nextest {
         steps.retain(|step| step.name != DOC_TESTS);
     }
     if python {
-        steps.push(Step::tests("Python tests", python::TESTS));
+        steps.push(Step::new("Python tests", python::TESTS, Work::Tests));
     }
     steps
 }
@@ -321,7 +310,7 @@ mod tests {
 
     #[test]
     fn the_long_run_is_typed_with_its_variable() {
-        let step = Step::tests("tests", "cargo test");
+        let step = Step::new("tests", "cargo test", Work::Tests);
         assert_eq!(typed(&step, Options { fast: false, long: true }), "VIBROIMPACT_LONG=1 cargo test");
         assert_eq!(typed(&step, Options::default()), "cargo test");
     }
