@@ -185,9 +185,11 @@ pub(crate) fn branches<D: Dynamics>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{StartPlan, SystemPlan};
+    use crate::machine::{CATALOGUE, MachineSource};
+    use crate::{Plan, PlanResults, Results, StartPlan, SystemPlan, Task, run};
     use vibroimpact::Label;
-    use vibroimpact::continuation::BranchEvent;
+    use vibroimpact::continuation::{BranchEvent, machine::SolutionPoint};
+    use vibroimpact::orbit::machine::Cycle;
 
     fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control<'_>) -> Result<Branches, RunError> {
         let problem = system.setup(StartPlan::default())?;
@@ -279,16 +281,6 @@ mod tests {
         let nothing = branches(&SystemPlan { gap: 0.0, ..system }, &plan, &Control::default()).unwrap_err().to_string();
         assert!(nothing.starts_with("no admissible orbit inf/1 was found"), "{nothing}");
     }
-}
-
-#[cfg(test)]
-mod tests_of_machines {
-    use super::*;
-    use crate::machine::CATALOGUE;
-    use crate::machine::MachineSource;
-    use crate::{Plan, PlanResults, Results, Task, run};
-    use vibroimpact::continuation::{BranchEvent, machine::SolutionPoint};
-    use vibroimpact::orbit::machine::Cycle;
 
     fn hammer() -> MachineSource {
         CATALOGUE.iter().find(|entry| entry.name == "two-mass-hammer").unwrap().source().unwrap()

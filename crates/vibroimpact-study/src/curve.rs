@@ -195,15 +195,14 @@ fn events<D: Dynamics>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{StartPlan, SystemPlan};
+    use crate::machine::CATALOGUE;
+    use crate::{Body, Parameter, Plan, PlanResults, Results, StartPlan, SystemPlan, Task, run};
 
     fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>) -> Result<EventCurve, RunError> {
         let problem = system.setup(StartPlan::default())?;
         plan.check(&problem)?;
         super::curve(&problem, plan, control)
     }
-
-    use crate::{Body, Parameter};
 
     fn plan() -> (SystemPlan, CurvePlan) {
         let system = SystemPlan::from_inverse_beta(1.11, 1.5, 0.5);
@@ -269,15 +268,8 @@ mod tests {
             );
         }
     }
-}
 
-#[cfg(test)]
-mod tests_of_machines {
-    use super::*;
-    use crate::machine::CATALOGUE;
-    use crate::{Plan, PlanResults, Results, Task, run};
-
-    fn plan(kind: FollowedEvent, event: Option<u32>) -> Plan {
+    fn of_a_ball(kind: FollowedEvent, event: Option<u32>) -> Plan {
         let entry = CATALOGUE.iter().find(|entry| entry.name == "bouncing-ball").unwrap();
         let source = entry.source().unwrap().with("Gamma", 1.2).unwrap();
         let stretch = |path: &str, from, to| Stretch { parameter: path.to_owned(), from, to };
@@ -288,7 +280,7 @@ mod tests_of_machines {
     /// The fold of the ball on a table in closed form.
     #[test]
     fn the_ball_on_a_table() {
-        let plan = plan(FollowedEvent::Fold, None);
+        let plan = of_a_ball(FollowedEvent::Fold, None);
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
         let PlanResults::Machine(Results::Curve(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
@@ -303,10 +295,10 @@ mod tests_of_machines {
     #[test]
     fn nonsense_is_refused() {
         let told = |plan: &Plan| run(plan, &Control::default()).unwrap_err().to_string();
-        assert!(told(&plan(FollowedEvent::Torus, None)).starts_with("no torus was found on the branch of 1/1"));
-        assert!(told(&plan(FollowedEvent::Flip, Some(4))).starts_with("there is no flip number 4 on the branch"));
+        assert!(told(&of_a_ball(FollowedEvent::Torus, None)).starts_with("no torus was found on the branch of 1/1"));
+        assert!(told(&of_a_ball(FollowedEvent::Flip, Some(4))).starts_with("there is no flip number 4 on the branch"));
         let changed = |of: &dyn Fn(&mut Stretch<String>, &mut Stretch<String>)| {
-            let mut plan = plan(FollowedEvent::Fold, None);
+            let mut plan = of_a_ball(FollowedEvent::Fold, None);
             let Task::Curve(asked) = &plan.task else { panic!() };
             let mut asked: CurvePlan<String> = asked.typed().unwrap();
             let CurvePlan { vary, and, .. } = &mut asked;

@@ -198,8 +198,9 @@ pub(crate) fn regions<D: Dynamics>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Plan;
     use crate::dynamics::at_rest;
+    use crate::machine::{MachineSource, no_files};
+    use crate::{Plan, PlanResults, Results, run};
 
     fn plan() -> (SystemPlan, RegionPlan) {
         let system = SystemPlan::from_inverse_beta(1.05, 1.0, 0.5);
@@ -321,14 +322,6 @@ mod tests {
             assert!(matches!(stopped, Err(RunError::Stopped(_))), "{stopped:?}");
         });
     }
-}
-
-#[cfg(test)]
-mod tests_of_machines {
-    use super::*;
-    use crate::dynamics::at_rest;
-    use crate::machine::{MachineSource, no_files};
-    use crate::{Parameter, Plan, PlanResults, Results, Stretch, SystemPlan, run};
 
     const MACHINE: &str = r#"
         [machine]

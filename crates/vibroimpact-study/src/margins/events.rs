@@ -128,8 +128,9 @@ mod tests {
     use super::*;
     use crate::SystemPlan;
     use crate::dynamics::at_rest;
+    use crate::machine::MachineSource;
     use crate::margins::{Loss, ScaledParameter};
-    use crate::{BranchPlan, Parameter, Plan, SecondStop, StartPlan, Task};
+    use crate::{BranchPlan, Parameter, Plan, PlanResults, Results, SecondStop, StartPlan, Task, run};
     use vibroimpact::continuation::BranchEvent;
     use vibroimpact::orbit::one_impact;
 
@@ -287,8 +288,8 @@ mod tests {
         // the start decides which motion it is
         let other = StartPlan { v: 1.0, ..StartPlan::default() };
         let plan = Plan::new(SYSTEM, Task::Margins(MarginsPlan { start: Some(other), ..MarginsPlan::default() }));
-        let found = crate::run(&plan, &Control::default());
-        assert!(matches!(found, Ok(crate::PlanResults::Oscillator(crate::Results::Margins(_)))));
+        let found = run(&plan, &Control::default());
+        assert!(matches!(found, Ok(PlanResults::Oscillator(Results::Margins(_)))));
     }
 
     #[test]
@@ -297,13 +298,6 @@ mod tests {
         let stopped = margins(&at_rest(&SYSTEM), &one(), &Control { stop: &stop, ..Control::default() });
         assert!(matches!(stopped, Err(RunError::Stopped(_))), "{stopped:?}");
     }
-}
-
-#[cfg(test)]
-mod tests_of_machines {
-    use super::*;
-    use crate::machine::MachineSource;
-    use crate::{BranchPlan, Plan, PlanResults, Results, ScaledParameter, Task, run};
 
     /// The nearest events are those of the branches in each number alone.
     #[test]

@@ -179,16 +179,15 @@ fn passes<D: Dynamics>(points: &[PointOf<D>], system: &D::System, cycle: &CycleO
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::SystemPlan;
     use crate::dynamics::at_rest;
+    use crate::machine::MachineSource;
+    use crate::{Parameter, Plan, PlanResults, Results, Span, SystemPlan, Task, Values, run};
 
     fn response(system: &SystemPlan, plan: &ResponsePlan, control: &Control<'_>) -> Result<ResponseCurves, RunError> {
         let problem = at_rest(system);
         plan.check(&problem)?;
         super::response(&problem, plan, control)
     }
-
-    use crate::{Parameter, Span, Values};
 
     /// A damped oscillator with a wide gap has the classical response of a linear oscillator.
     #[test]
@@ -247,15 +246,8 @@ mod tests {
             assert!(near, "{} at {} lies on no branch", motion.label, motion.value);
         }
     }
-}
 
-#[cfg(test)]
-mod tests_of_machines {
-    use super::*;
-    use crate::machine::MachineSource;
-    use crate::{Plan, PlanResults, Results, Span, Task, run};
-
-    fn response(name: &str, plan: ResponsePlan<String, String>) -> ResponseCurves {
+    fn of_machine(name: &str, plan: ResponsePlan<String, String>) -> ResponseCurves {
         let plan = Plan::new(MachineSource::open(name).unwrap(), Task::from(plan));
         let plan = Plan::from_text(&plan.to_toml()).unwrap();
         let PlanResults::Machine(Results::Response(found)) = run(&plan, &Control::default()).unwrap() else { panic!() };
@@ -264,11 +256,11 @@ mod tests_of_machines {
 
     /// Motions of both sweeps lie on the branches through them.
     #[test]
-    fn sweeps_lie_on_branches() {
+    fn sweeps_of_a_machine_lie_on_branches() {
         let over = "0.9:1.2:7".parse::<Span>().unwrap().into();
         let quantity = Some("stop.anvil.impact-speed-max".to_owned());
         let plan = ResponsePlan { vary: "frequency".to_owned(), over, quantity, impacts: None };
-        let found = response("two-mass-hammer", plan);
+        let found = of_machine("two-mass-hammer", plan);
         assert_eq!((found.up.len(), found.down.len()), (7, 7));
         assert_eq!(found.quantities[found.shown], "stop.anvil.impact_speed_max");
         let (mut compared, shown) = (0, found.shown);
