@@ -186,29 +186,3 @@ impl From<Span> for String {
 
 #[cfg(test)]
 mod tests;
-
-#[cfg(test)]
-mod refusals {
-    use super::*;
-
-    #[test]
-    fn bad_ranges_are_named() {
-        for bad in ["", "1", "1:2", "1:2:3:4", "a:2:3", "nan:1:3", "0:inf:3", "0:1:-3", "0:1:2.5"] {
-            let message = bad.parse::<Span>().unwrap_err().to_string();
-            assert!(message.contains("is not A:B:N") && message.contains("\nhint: "), "{bad}: {message}");
-        }
-        for bad in ["0:1:3:log", "-1:-2:3:log"] {
-            let message = bad.parse::<Span>().unwrap_err().to_string();
-            assert!(message.contains("positive"), "{bad}: {message}");
-        }
-        for bad in ["0:1:0", "0:1:1", "1:1:5", "0:1:99999999999"] {
-            let message = bad.parse::<Span>().unwrap_err().to_string();
-            assert!(message.contains("allowed is 1 to 1000000"), "{bad}: {message}");
-        }
-    }
-
-    #[test]
-    fn the_minus_sign_of_typeset_text_is_a_minus_sign() {
-        assert_eq!("\u{2212}3:\u{2212}1:3".parse(), Span::new(-3.0, -1.0, 3));
-    }
-}
