@@ -1,6 +1,6 @@
 //! A machine with its start.
 
-use super::{MachineSource, Named, NumberText, StartText, VectorText};
+use super::{MachineSource, Named, NumberText, StartAxis, StartText, VectorText};
 use crate::PlanError;
 use vibroimpact::events::{Limits, Motion, Start};
 use vibroimpact::machine::Machine;
@@ -30,6 +30,19 @@ impl MachineSource {
     /// [`PlanError::Machine`] with the path of the first number that is not allowed.
     pub fn described(&self) -> Result<(Machine, Start), PlanError> {
         Ok((self.machine()?, self.start()?))
+    }
+
+    /// The same with these values of numbers and of what has a place in the start; the start may depend on the numbers.
+    pub(crate) fn described_at(
+        &self,
+        values: &[(&str, Option<&StartAxis>, f64)],
+    ) -> Result<(Machine, Start), PlanError> {
+        let numbers = values.iter().filter(|(_, place, _)| place.is_none()).map(|(path, _, value)| (*path, *value));
+        let (machine, mut start) = self.with_all(numbers)?.described()?;
+        for (_, place, value) in values {
+            place.iter().for_each(|place| place.set(&mut start, *value));
+        }
+        Ok((machine, start))
     }
 
     /// The machine and the start, both checked.

@@ -4,7 +4,7 @@ use super::fill::{Over, on_axis};
 use super::lyapunov::{LyapunovFill, Spectra, Spectrum, TILE};
 use super::map::side;
 use crate::machine::{MachineSource, StartAxis};
-use crate::{Axis, LyapunovPlan, PlanError, Unit};
+use crate::{LyapunovPlan, PlanError, Unit};
 use vibroimpact::chaos::{Grounds, machine_exponents_while};
 use vibroimpact::events::Start;
 use vibroimpact::machine::Machine;
@@ -35,18 +35,11 @@ impl LyapunovFill<Machines> {
 impl Machines {
     /// The machine and the start at a point.
     fn problem(&self, index: &[usize]) -> Result<(Machine, Start), PlanError> {
-        let values = || self.plan.axes.iter().zip(&self.places).enumerate();
-        let at = |k: usize, axis: &Axis<String>| axis.over.at(on_axis(index, k));
-        let numbers =
-            values().filter(|(_, (_, place))| place.is_none()).map(|(k, (axis, _))| (axis.vary.as_str(), at(k, axis)));
-        let source = self.source.with_all(numbers)?;
-        let (machine, mut start) = source.described()?;
-        for (k, (axis, place)) in values() {
-            if let Some(place) = place {
-                place.set(&mut start, at(k, axis));
-            }
-        }
-        Ok((machine, start))
+        let axes = self.plan.axes.iter().zip(&self.places).enumerate();
+        let values: Vec<(&str, Option<&StartAxis>, f64)> = axes
+            .map(|(k, (axis, place))| (axis.vary.as_str(), place.as_ref(), axis.over.at(on_axis(index, k))))
+            .collect();
+        self.source.described_at(&values)
     }
 }
 

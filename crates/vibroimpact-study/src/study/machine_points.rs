@@ -51,18 +51,19 @@ impl MapFill<MachineAt> {
 impl MachineAt {
     /// The machine and the start at point number `k`.
     fn problem(&self, k: usize) -> Result<(Machine, Start), PlanError> {
-        let mut start = self.start.clone();
         let names: Vec<String> = self.plan.points.varied().collect();
-        let mut changes = Vec::new();
-        for (column, (name, place)) in names.iter().zip(&self.places).enumerate() {
-            let value = self.plan.points.at(column, k);
-            match place {
-                Some(place) => place.set(&mut start, value),
-                None => changes.push((name.as_str(), value)),
-            }
+        let values: Vec<(&str, Option<&StartAxis>, f64)> = (names.iter().zip(&self.places).enumerate())
+            .map(|(column, (name, place))| (name.as_str(), place.as_ref(), self.plan.points.at(column, k)))
+            .collect();
+        if self.places.iter().any(Option::is_none) {
+            return self.source.described_at(&values);
         }
-        let there = if changes.is_empty() { self.machine.clone() } else { self.source.with_all(changes)?.machine()? };
-        Ok((there, start))
+        // the machine is the same at all points, and need not be read again
+        let mut start = self.start.clone();
+        for (_, place, value) in values {
+            place.iter().for_each(|place| place.set(&mut start, value));
+        }
+        Ok((self.machine.clone(), start))
     }
 }
 
@@ -111,5 +112,40 @@ impl Mapped for MachineAt {
 
     fn quantities(&self, extra: &[Extra]) -> Vec<Field> {
         machine_fields(&self.plan.fields, extra)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::machine::MachineSource;
+    use crate::{Control, Plan, PlanResults, Results, Task, run};
+    use serde_json::json;
+
+    /// A start that depends on a number that varies is that of each point.
+    #[test]
+    fn each_point_has_its_own_start() {
+        let text = "start = { q = { mass = \"x0\" } }\n[parameters]\nx0 = 0\n[machine]\nbodies = { mass = 1 }\nfrequency = 0.769\n\
+                    link = [{ between = [\"mass\", \"ground\"], stiffness = 1 }]\nforce = [{ at = \"mass\", sin = 1 }]\n\
+                    stop = [{ name = \"stop\", at = \"mass\", gap = 0.75, restitution = 0.5 }]\n";
+        let source = MachineSource::open(text).unwrap();
+        let answered = |source: MachineSource, task: serde_json::Value| {
+            let task: Task = serde_json::from_value(task).unwrap();
+            match run(&Plan::new(source, task), &Control::default()) {
+                Ok(PlanResults::Machine(found)) => found,
+                other => panic!("{other:?}"),
+            }
+        };
+        let starts = [0.0, -2.0, -0.7];
+        let listed = json!({"settle_many": {"points": {"listed": [{"vary": "x0", "values": starts}]}}});
+        let Results::Map(found) = answered(source.clone(), listed) else { panic!() };
+        let many: Vec<_> = found.points.iter().map(|cell| cell[0].label.clone()).collect();
+        let alone = starts.map(|x0| {
+            let Results::Settle(found) = answered(source.with("x0", x0).unwrap(), json!({"settle": {}})) else {
+                panic!()
+            };
+            found.verdict.label()
+        });
+        assert_eq!(many, alone);
+        assert_ne!(alone[0], alone[1]);
     }
 }
