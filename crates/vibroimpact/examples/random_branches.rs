@@ -240,15 +240,16 @@ fn outside(cycle: &Cycle) -> Option<usize> {
 /// The events of a cycle: kind and place, without touches and without what follows the first impact of a chatter: impacts, and
 /// joints that turn back between them.
 fn list(cycle: &Cycle) -> Vec<(EventKind, usize)> {
-    let all: Vec<_> = cycle.events.iter().map(|event| (event.kind, event.place)).collect();
-    let all: Vec<_> = all.into_iter().filter(|(kind, _)| *kind != EventKind::Graze).collect();
+    let told: Vec<_> = cycle.events.iter().filter(|event| event.kind != EventKind::Graze).collect();
+    let all: Vec<_> = told.iter().map(|event| (event.kind, event.place)).collect();
     let m = all.len();
     let turns = |k: &usize| all[k % m].0 == EventKind::Slip;
     let in_chatter = |k: usize, place: usize| {
         let struck = |k: usize| all[k % m] == (EventKind::Impact, place);
         let end = (k..k + m).find(|i| !struck(*i) && !turns(i));
         let before = (1..=m).map(|i| k + m - i).find(|i| !turns(i));
-        end.is_some_and(|end| all[end % m] == (EventKind::Stick, place)) && before.is_some_and(struck)
+        end.is_some_and(|end| all[end % m] == (EventKind::Stick, place))
+            && before.is_some_and(|before| struck(before) && (!struck(k) || told[k].speed < told[before % m].speed))
     };
     let stops: Vec<usize> = all.iter().filter(|(kind, _)| *kind == EventKind::Stick).map(|(_, place)| *place).collect();
     (0..m).filter(|k| !stops.iter().any(|place| in_chatter(*k, *place))).map(|k| all[k]).collect()
