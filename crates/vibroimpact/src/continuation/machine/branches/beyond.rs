@@ -11,6 +11,7 @@ use super::change::Difference;
 use super::closest::closest;
 use super::equations::MachineEquations;
 use super::explained::{closings, same_events};
+use super::joined::join;
 use super::problem::{MachineProblem, MachineSolution};
 use super::summed::same_in_turn;
 use super::test_functions::TestFunction;
@@ -214,6 +215,23 @@ pub(super) fn through_ending(
     [along, back].iter().find_map(|along| first_step(&problem, &w, along, options))
 }
 
+/// The tracer beyond the end of a hold that takes no time: the motion is that of the cycle in which the joint turns back instead.
+pub(super) fn through_turn(
+    tracer: &Tracer<MachineProblem>,
+    at: &MachineSolution,
+    (found, options): (&Difference, &BranchOptions),
+) -> Option<Tracer<MachineProblem>> {
+    let Difference::Rest { place, joint: true, .. } = *found else { return None };
+    let (machine, mut ring) = tracer.problem.equations.split(&at.w)?;
+    join(&MachineFrame::new(&machine), &mut ring, place).then_some(())?;
+    let problem = with_ring(tracer, &machine, ring, at.known.cycle.as_ref()?.sizes);
+    let w = MachineEquations::join(&machine, &problem.equations.ring, [last(&at.w)]);
+    let row = unit(w.len(), w.len() - 1, forward(at));
+    let along = tangent(&problem.equations, &w, &row)?;
+    let back: Vec<f64> = along.iter().map(|t| -t).collect();
+    [along, back].iter().find_map(|along| first_step(&problem, &w, along, options))
+}
+
 /// Without the impacts or contacts `gone`, whose speed is zero. What is left can be several times a shorter cycle.
 fn disappearing(
     tracer: &Tracer<MachineProblem>,
@@ -279,7 +297,14 @@ pub(super) fn replayed(
         }
     }
     let steps = [forward, -forward].into_iter().flat_map(|up| beside.map(|by| up * by));
-    let found = steps.into_iter().filter_map(|by| motion.beside(tracer, (by, options), other));
+    // where a joint begins or ceases to hold no impact appears
+    let joint = matches!(found, Difference::Rest { joint: true, .. });
+    let becomes = |next: &Tracer<MachineProblem>| !joint || closings(&next.problem.equations.ring) == closings(ring);
+    let found = steps.into_iter().filter_map(|by| {
+        let (next, continues) = motion.beside(tracer, (by, options), other)?;
+        let continues = continues && becomes(&next);
+        Some((next, continues))
+    });
     first_continuing(found)
 }
 

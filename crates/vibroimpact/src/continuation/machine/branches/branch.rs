@@ -1,7 +1,7 @@
 //! The branch of a cycle of a machine in one of its numbers.
 
 use super::beginning::begun;
-use super::beyond::{across, apart, replayed, same_beyond, through_ending, through_grazing, with_ring};
+use super::beyond::{across, apart, replayed, same_beyond, through_ending, through_grazing, through_turn, with_ring};
 use super::change::Difference;
 use super::complete_chatter::{ADAPTED, CompleteChatter};
 use super::equations::MachineEquations;
@@ -215,7 +215,9 @@ impl EventBranch {
         if of_rest && let Some(next) = same_beyond(&self.tracer, at, &self.path.options) {
             return self.exchange(next);
         }
-        let next = next.or_else(|| through_ending(&self.tracer, at, (found, &self.path.options)));
+        let changed = (found, &self.path.options);
+        let next = next.or_else(|| through_ending(&self.tracer, at, changed));
+        let next = next.or_else(|| through_turn(&self.tracer, at, changed));
         let contact = if next.is_none() { struck(&self.tracer, at, &self.path.options) } else { None };
         let (there, with_contact) = contact.unzip();
         let (at, next) = (there.as_ref().unwrap_or(at), next.or(with_contact));

@@ -162,9 +162,9 @@ pub(super) fn explained(
     let explains = match event {
         // without rebound a rest is interrupted where the stop ceases to press for an instant: it closes once more. A joint begins
         // to hold at once where it turned back for a moment before
-        BranchEvent::Grazing { stop: place, .. } | BranchEvent::Sticking { stop: place, .. } => {
-            old[place] != new[place]
-        }
+        BranchEvent::Grazing { stop, .. } => old[stop] != new[stop],
+        // not an impact that appears between cycles without a rest
+        BranchEvent::Sticking { stop, .. } => old[stop] != new[stop] && old[stop].rests + new[stop].rests > 0,
         // an impact that appears turns the joint of its coordinate back too
         BranchEvent::Holding { joint, .. } => {
             old[joint].rests != new[joint].rests || old[joint] != new[joint] && closing.is_none() && rest.is_none()
