@@ -1,8 +1,6 @@
 //! The end of impacts that accumulate, as rounds of several stops or of stops and joints, or without any order.
 //!
-//! The time of rounds that repeat themselves is a geometric sum. Without such a round the gaps are followed by themselves: they
-//! are known to all their digits then, however small they become, and under accelerations that do not change in so short a
-//! time each next impact has a closed form.
+//! The time of rounds that repeat themselves is a geometric sum. Without such a round it is that of `free_gaps`.
 //!
 //! The velocities of the gaps that are left when a sum is taken are taken away as by impacts without rebound, those of the
 //! joints that change within the round with them: they go to zero with the round. What rests, holds or slides then is
@@ -11,20 +9,19 @@
 
 use super::advance::FAINT;
 use super::event::{End, EventKind};
-use super::instants::{BELOW, Round};
+use super::instants::Round;
 use super::motion::Motion;
 use super::place::Place;
 use super::resolve::{Resolution, Resolved};
 use crate::machine::StopLaw;
 use crate::math::{change_along, dot};
 use crate::regime::{ContactState, GuardKind, Orthonormal};
-use std::collections::VecDeque;
 
 /// A sum is taken when its error is no more than so many rounding errors of the time.
 const ROUNDINGS: f64 = 32.0;
 /// A sum whose impacts are at one time without a joint is left to the closed form as long as this can be taken: while the
 /// fastest mode turns by more than this angle; of free bodies while impacts are faster than this part of the largest one.
-const SOON: f64 = 1e-7;
+pub(super) const SOON: f64 = 1e-7;
 const SLOW: f64 = 1e-8;
 /// A gap below so many rounding errors of the motion is closed; where impacts have no order, below so many, long before rounding
 /// errors of the gaps could change what happens.
@@ -36,9 +33,6 @@ const BY_FRICTION: f64 = 4.0;
 const KEPT_APART: f64 = 1e-6;
 /// What goes by no more than so many rounding errors of a gap in many impacts does not move.
 const IN_PLACE: f64 = 64.0;
-/// The most impacts of a collapse that are followed by gaps alone, and for how many on each stop no time may pass at the end.
-const STEPS: usize = 20_000;
-const LAST: usize = 16;
 /// After so many events at one time gaps are closed, whatever they are.
 const MANY: u32 = 256;
 
@@ -131,62 +125,9 @@ impl Motion<'_> {
 
     /// A gap without the rounding errors of the coordinates: of a stop that has just been struck, which is exactly closed, or one that
     /// has been kept.
-    fn exact_gap(&self, j: usize) -> Option<f64> {
+    pub(super) fn exact_gap(&self, j: usize) -> Option<f64> {
         let struck = self.place.known.iter().any(|(kind, _)| *kind == GuardKind::Gap(j));
         if struck { Some(0.0) } else { self.place.sharp_gap(j) }
-    }
-
-    /// The time after which impacts on these stops have accumulated, one after another, if they do so soon. Their gaps are
-    /// followed by themselves under the accelerations here: so they have all digits, however small they become.
-    fn collapse_time(&mut self, stops: &[usize]) -> Option<f64> {
-        let free = self.structures.get(self.machine, &self.normal, &self.place.states)?;
-        let flight = self.place.flight(&self.normal, free.clone());
-        let turns = self.place.turns(&self.normal);
-        let directions = &self.normal.directions;
-        // what rests and holds stays so: impulses act beside it
-        let kept = Orthonormal::spanning(free.held.iter().map(|at| &directions[*at]));
-        let along: Vec<Vec<f64>> = stops.iter().map(|j| kept.beside(&directions[*j])).collect::<Option<_>>()?;
-        let gaps = stops.iter().map(|j| {
-            let StopLaw::Rigid { restitution } = self.machine.stops()[*j].law else { return None };
-            let (gap, rate) = self.place.gap_and_rate(&self.normal, &turns, *j);
-            let gap = self.exact_gap(*j).unwrap_or(gap).max(0.0);
-            let acceleration = flight.first(&free.gap(&self.normal, *j).1).1;
-            Some(FreeGap { gap, rate, acceleration, restitution })
-        });
-        let mut gaps: Vec<FreeGap> = gaps.collect::<Option<_>>()?;
-        let limit = if free.fastest() > 0.0 { SOON / free.fastest() } else { f64::INFINITY };
-        let rounding = BELOW * f64::EPSILON * self.instants.longest();
-        let last = LAST * stops.len();
-        let (mut time, mut recent) = (0.0, VecDeque::from(vec![0.0; last]));
-        for step in 0..STEPS {
-            // the stop that is struck next
-            let (k, s) = gaps
-                .iter()
-                .enumerate()
-                .filter_map(|(k, own)| Some((k, own.closes_after()?)))
-                .min_by(|one, other| one.1.total_cmp(&other.1))?;
-            time += s;
-            gaps.iter_mut().for_each(|own| own.advance(s));
-            let own = &mut gaps[k];
-            own.gap = 0.0;
-            // by restitution, and the other gaps by their share of the same impulse
-            let change = -(1.0 + own.restitution) * own.rate;
-            let square = dot(&along[k], &along[k]);
-            for (own, w) in gaps.iter_mut().zip(&along) {
-                own.rate += dot(w, &along[k]) / square * change;
-            }
-            // the time so many impacts ago: when none passes between, the impacts have accumulated
-            recent.push_back(time);
-            let before = recent.pop_front()?;
-            // too late for accelerations that do not change
-            if time > limit {
-                return None;
-            }
-            if step > last && time - before <= rounding.max(BELOW * f64::EPSILON * time) {
-                return Some(time);
-            }
-        }
-        None
     }
 
     /// Brings the structure to rest on these stops, and these joints to rest, after a time; `None` if it stays on none of the
@@ -314,31 +255,5 @@ impl Motion<'_> {
             there.close_rests(machine, normal);
         }
         Some(there)
-    }
-}
-
-/// A gap that moves freely under a constant acceleration.
-#[derive(Clone, Copy, Debug)]
-struct FreeGap {
-    gap: f64,
-    rate: f64,
-    acceleration: f64,
-    restitution: f64,
-}
-
-impl FreeGap {
-    /// The time after which it closes.
-    fn closes_after(&self) -> Option<f64> {
-        let Self { gap, rate, acceleration: a, .. } = *self;
-        // the form in which nothing cancels, for a gap that opens and for one that closes
-        let root = (rate * rate - 2.0 * a * gap).sqrt();
-        let time = if rate > 0.0 { (rate + root) / -a } else { 2.0 * gap / (root - rate) };
-        (time >= 0.0 && time.is_finite()).then_some(time)
-    }
-
-    fn advance(&mut self, s: f64) {
-        // rounding errors do not take it beyond
-        self.gap = (self.gap + s * (self.rate + 0.5 * self.acceleration * s)).max(0.0);
-        self.rate += self.acceleration * s;
     }
 }

@@ -6,7 +6,7 @@
 //! | a start put onto the stops that it lies beyond | [`Start::within_stops`], `within` |
 //! | the laws of impact at one stop and at several, impacts | `impulses`, `collision`, `strike` |
 //! | the end of a chatter on stops that are struck at the same times | `chatter` |
-//! | rounds of impacts on several stops in turn, or with joints; their end | `instants`, `collapse` |
+//! | rounds of impacts on several stops in turn, or with joints; their end, also without a round | `instants`, `collapse`, `free_gaps` |
 //! | from one event to the next, and what happens to the contacts there | `advance`, `contact_change` |
 //! | events that change one stop alone | `alone` |
 //! | the state at one time | `place` |
@@ -31,6 +31,7 @@ mod contact_change;
 mod contact_force;
 mod event;
 mod event_by_number;
+mod free_gaps;
 mod given;
 mod impulses;
 mod instants;

@@ -1,7 +1,7 @@
 //! The branch of a cycle of a machine in one of its numbers.
 
 use super::beginning::begun;
-use super::beyond::{across, apart, replayed, same_beyond, through_ending, through_grazing, through_turn, with_ring};
+use super::beyond::{across, apart, replayed, same_beyond};
 use super::change::Difference;
 use super::complete_chatter::{ADAPTED, CompleteChatter};
 use super::equations::MachineEquations;
@@ -14,6 +14,7 @@ use super::rest_for_ever::rest_for_ever;
 use super::step::{NEARBY, off_circle};
 use super::struck::struck;
 use super::test_functions::TestFunction;
+use super::through::{through_ending, through_grazing, through_turn, with_ring};
 use crate::continuation::branches::{BranchError, BranchOptions, Direction, scale};
 use crate::continuation::event::BranchEvent;
 use crate::continuation::trace::driver::{Driver, Path};

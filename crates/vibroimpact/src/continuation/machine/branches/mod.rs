@@ -20,7 +20,8 @@
 //! | how the events of a cycle with a complete chatter change | `summed` |
 //! | where the impacts of a chatter become infinitely many | `complete_chatter` |
 //! | two events that come so close that no further step converges | `meeting` |
-//! | the branch beyond such a change | `beyond` |
+//! | the branch through a grazing contact and others whose motion solves the equations of both sides | `through` |
+//! | the branch beyond other changes, from the motion there | `beyond` |
 //! | the same where a contact grazes at the time of another event | `struck` |
 //! | where the structure rests for ever beyond | `rest_for_ever` |
 //! | the cycle of twice the period beside a flip, and where it is the other one repeated | `switch`, `halving` |
@@ -50,6 +51,7 @@ mod struck;
 mod summed;
 mod switch;
 mod test_functions;
+mod through;
 mod together;
 
 pub(crate) use branch::UnreducedBranch;

@@ -7,9 +7,9 @@
 
 use super::at_rest::zero_near;
 use super::beginning::traced;
-use super::beyond::{grows, with_ring};
 use super::equations::MachineEquations;
 use super::problem::{MachineProblem, MachineSolution};
+use super::through::{grows, with_ring};
 use crate::continuation::branches::BranchOptions;
 use crate::continuation::trace::equations::{correct, tangent};
 use crate::continuation::trace::tracer::{Tracer, last};
