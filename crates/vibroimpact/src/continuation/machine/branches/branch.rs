@@ -21,7 +21,7 @@ use crate::continuation::trace::driver::{Driver, Path};
 use crate::continuation::trace::tracer::{Step, Tracer, last};
 use crate::machine::StopLaw;
 use crate::math::dot;
-use crate::orbit::{Chatter, MachineFrame, MachineRing, machine::Cycle};
+use crate::orbit::{Chatter, MachineFrame, MachineRing, Push, RingEvent, machine::Cycle};
 use crate::regime::{Normal, independent};
 use core::ops::RangeInclusive;
 
@@ -184,6 +184,15 @@ impl EventBranch {
         }
     }
 
+    /// Whether the two stops of a corner are struck in turn until both are at rest: then what changes can be how many of these impacts are
+    /// followed, which is no event.
+    fn accumulates(&self, event: BranchEvent) -> bool {
+        let BranchEvent::Corner { first, second } = event else { return false };
+        let summed = |stop: usize, event: &RingEvent| event.pushed.contains(&(stop, Push::Summed));
+        let events = &self.tracer.problem.equations.ring.events;
+        first != second && events.iter().any(|event| summed(first, event) && summed(second, event))
+    }
+
     /// Ends the branch if the structure rests for ever right beyond; returns whether it does.
     pub(super) fn rests(&mut self, at: &MachineSolution) -> bool {
         let found = rest_for_ever(&self.tracer, at);
@@ -273,6 +282,9 @@ impl EventBranch {
     fn jump(&mut self, at: &MachineSolution, found: &Difference, next: Option<(Tracer<MachineProblem>, bool)>) {
         let Some((next, continues)) = next else {
             let event = self.at_one_time(at, found).unwrap_or(*found).event(false);
+            if self.accumulates(event) {
+                return self.end(at, BranchEvent::NoConvergence);
+            }
             self.add(at, Some(event));
             // as that of a joint whose static limit exceeds its sliding force
             let holds = matches!(event, BranchEvent::Holding { .. });
