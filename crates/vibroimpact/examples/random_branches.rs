@@ -249,7 +249,8 @@ fn list(cycle: &Cycle) -> Vec<(EventKind, usize)> {
         let end = (k..k + m).find(|i| !struck(*i) && !turns(i));
         let before = (1..=m).map(|i| k + m - i).find(|i| !turns(i));
         end.is_some_and(|end| all[end % m] == (EventKind::Stick, place))
-            && before.is_some_and(|before| struck(before) && (!struck(k) || told[k].speed < told[before % m].speed))
+            && before
+                .is_some_and(|before| struck(before) && (!struck(k) || told[k].speed < 2.0 * told[before % m].speed))
     };
     let stops: Vec<usize> = all.iter().filter(|(kind, _)| *kind == EventKind::Stick).map(|(_, place)| *place).collect();
     (0..m).filter(|k| !stops.iter().any(|place| in_chatter(*k, *place))).map(|k| all[k]).collect()

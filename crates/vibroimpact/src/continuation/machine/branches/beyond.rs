@@ -20,6 +20,8 @@ use crate::orbit::{Chatter, MachineFrame, MachineRing, machine::Cycle, passing};
 
 /// How far beyond a change the motion is followed, in the scale of the number: little, so that no other event lies between.
 const BESIDE: [f64; 5] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
+/// From here on another cycle can be as near as the one that goes on.
+const FAR_BESIDE: f64 = 1e-3;
 /// The number of these at which events can have come apart at the beginning of a branch.
 const APART: usize = 3;
 /// The same where a rest on a stop begins or ends: the numbers at which a chatter gets one more impact accumulate there.
@@ -51,13 +53,12 @@ pub(super) fn replayed(
         }
     }
     let steps = [forward, -forward].into_iter().flat_map(|up| beside.map(|by| up * by));
-    // where a joint begins or ceases to hold no impact appears
+    // where a joint begins or ceases to hold no impact appears, but close by one can, which turns the joint back
     let joint = matches!(found, Difference::Rest { joint: true, .. });
-    let becomes = |next: &Tracer<MachineProblem>| !joint || closings(&next.problem.equations.ring) == closings(ring);
     let found = steps.into_iter().filter_map(|by| {
         let (next, continues) = motion.beside(tracer, (by, options), other)?;
-        let continues = continues && becomes(&next);
-        Some((next, continues))
+        let becomes = !joint || by.abs() < FAR_BESIDE || closings(&next.problem.equations.ring) == closings(ring);
+        Some((next, continues && becomes))
     });
     first_continuing(found)
 }
