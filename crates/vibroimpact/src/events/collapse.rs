@@ -170,17 +170,20 @@ impl Motion<'_> {
     /// back with the body at its one side slides on with the other: at one instant friction has no impulse.
     fn that_stop(&mut self, round: &Round) -> Vec<usize> {
         let stops = self.machine.stops().len();
-        let (struck, joints): (Vec<usize>, Vec<usize>) = round.places.iter().partition(|at| **at < stops);
-        let Some(there) = (if joints.is_empty() { None } else { self.at_rest(&struck) }) else {
-            return round.places.clone();
-        };
-        let slow = |at: &usize| {
+        let mut places = round.places.clone();
+        let struck: Vec<usize> = places.iter().copied().filter(|at| *at < stops).collect();
+        if struck.len() == places.len() {
+            return places;
+        }
+        let Some(there) = self.at_rest(&struck) else { return places };
+        let slow = |at: usize| {
             let (speed, size) = there.sliding(self.machine, &self.normal, at - stops);
-            let w = &self.normal.directions[*at];
+            let w = &self.normal.directions[at];
             let slows = self.machine.joints()[at - stops].sliding * dot(w, w) * round.left;
             speed.abs() <= BY_FRICTION * slows + FAINT * size
         };
-        struck.iter().copied().chain(joints.into_iter().filter(slow)).collect()
+        places.retain(|at| *at < stops || slow(*at));
+        places
     }
 
     /// Stops that are open and closed exactly, and would be closed further without the velocities that are taken away: a body beside a
@@ -228,15 +231,14 @@ impl Motion<'_> {
         there.known.retain(|(kind, _)| !places.contains(&kind.place(stops)));
         // without these velocities a joint can slide in the other direction
         for joint in 0..self.machine.joints().len() {
-            let (speed, size) = there.sliding(self.machine, &self.normal, joint);
-            let size = size.max(self.place.sliding(self.machine, &self.normal, joint).1);
-            if there.states[stops + joint].constrains() || places.contains(&(stops + joint)) {
+            let at = stops + joint;
+            if there.states[at].constrains() || places.contains(&at) {
                 continue;
             }
-            if speed.abs() <= FAINT * size {
-                candidates.push(stops + joint);
-            } else {
-                there.states[stops + joint] = if speed > 0.0 { ContactState::Forward } else { ContactState::Backward };
+            let size = self.place.sliding(self.machine, &self.normal, joint).1;
+            match there.slides(self.machine, &self.normal, joint, (FAINT, size)) {
+                Some(direction) => there.states[at] = direction,
+                None => candidates.push(at),
             }
         }
         // they were those before the coordinates have moved

@@ -5,7 +5,7 @@ use super::event::{End, EventKind};
 use super::motion::Motion;
 use super::resolve::{Resolution, Resolved};
 use crate::machine::{Opening, StopLaw};
-use crate::regime::{ContactState, GuardKind, compliant};
+use crate::regime::{ContactState, GuardKind, compliant, compliant_force};
 
 /// An event to announce: its kind, its place, its speed, and the other stops of an impact.
 type Happening = (EventKind, usize, f64, Vec<usize>);
@@ -82,15 +82,13 @@ impl Motion<'_> {
     /// impact, so neighbours of the motion open them earlier or later by what the stop that was struck says, not by their force.
     fn let_go(&mut self, turns: &[(f64, f64)]) {
         for (j, stop) in self.machine.stops().iter().enumerate() {
-            let StopLaw::Compliant { stiffness, damping, preload, opening: Opening::Force } = stop.law else {
-                continue;
-            };
-            if self.place.states[j] != ContactState::Closed {
+            let by_force = matches!(stop.law, StopLaw::Compliant { opening: Opening::Force, .. });
+            if !by_force || self.place.states[j] != ContactState::Closed {
                 continue;
             }
             let (gap, rate) = self.place.gap_and_rate(&self.normal, turns, j);
             let gap = self.place.sharp_gap(j).unwrap_or(gap);
-            if preload - stiffness * gap < damping * rate {
+            if compliant_force(&stop.law, gap, rate).is_some_and(|force| force < 0.0) {
                 self.place.open(&stop.law, GuardKind::Force(j), j, (gap, rate));
             }
         }

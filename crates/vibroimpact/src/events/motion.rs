@@ -9,7 +9,7 @@ use super::stretch::{Stretch, follow};
 use crate::arc::{Buffers, MachineFlight, Touch};
 use crate::machine::{Fault, Machine, MachineError, Opening, StopLaw};
 use crate::math::Wide;
-use crate::regime::{ContactState, GuardKind, Normal};
+use crate::regime::{ContactState, GuardKind, Normal, compliant_force};
 use std::collections::VecDeque;
 
 /// The events of a machine from a start, in order.
@@ -193,9 +193,9 @@ impl<'a> Motion<'a> {
                 }
                 // the stop is compressed: it pushes, or it has opened by force and its surface stands back at this
                 // depth
-                StopLaw::Compliant { stiffness, damping, preload, opening } if gap < 0.0 && !on => {
-                    let force = preload - stiffness * gap - damping * rate;
-                    if opening == Opening::Position || force > 0.0 {
+                StopLaw::Compliant { opening, .. } if gap < 0.0 && !on => {
+                    let pushes = compliant_force(&stop.law, gap, rate).is_some_and(|force| force > 0.0);
+                    if opening == Opening::Position || pushes {
                         self.place.states[j] = ContactState::Closed;
                     } else {
                         self.place.surfaces[j] = standing_back(&stop.law, -gap);
@@ -214,13 +214,11 @@ impl<'a> Motion<'a> {
                 continue;
             }
             // whether it can hold is decided with the other candidates
-            let (speed, size) = self.place.sliding(self.machine, &self.normal, joint);
-            if speed.abs() <= 4.0 * f64::EPSILON * size {
+            let slides = self.place.slides(self.machine, &self.normal, joint, (4.0 * f64::EPSILON, 0.0));
+            if slides.is_none() {
                 candidates.push(at);
-                self.place.states[at] = ContactState::Holding;
-            } else {
-                self.place.states[at] = if speed > 0.0 { ContactState::Forward } else { ContactState::Backward };
             }
+            self.place.states[at] = slides.unwrap_or(ContactState::Holding);
         }
         // a joint that holds from the start is announced, unless the start says so
         let before = |(at, state): (usize, &ContactState)| match state {

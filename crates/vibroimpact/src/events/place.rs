@@ -353,4 +353,17 @@ impl Place {
         let belt = machine.joints()[joint].belt;
         (dot(w, &self.v) - belt, belt.abs() + (dot(w, w) * dot(&self.v, &self.v)).sqrt())
     }
+
+    /// The direction in which a joint slides; `None` if its velocity is no more than a `part` of its size, or of another one.
+    pub(super) fn slides(
+        &self,
+        machine: &Machine,
+        normal: &Normal,
+        joint: usize,
+        (part, other): (f64, f64),
+    ) -> Option<ContactState> {
+        let (speed, size) = self.sliding(machine, normal, joint);
+        let direction = if speed > 0.0 { ContactState::Forward } else { ContactState::Backward };
+        (speed.abs() > part * size.max(other)).then_some(direction)
+    }
 }

@@ -742,6 +742,29 @@ mod tests {
         Machine::new(parts).unwrap()
     }
 
+    /// Compares the derivative of the state at a time with central differences of a step, for all coordinates and velocities of a start.
+    fn compare(machine: &Machine, start: impl Fn(&[f64]) -> Start, until: f64, (step, tolerance): (f64, f64)) {
+        let n = machine.n();
+        let at = |change: &[f64]| flown(machine, &start(change), until).unwrap();
+        let (_, derivative, _) = at(&vec![0.0; 2 * n]);
+        let normal = Normal::new(machine);
+        for j in 0..2 * n {
+            let mut change = vec![0.0; 2 * n];
+            change[j] = step;
+            let plus = at(&change).0;
+            change[j] = -step;
+            let minus = at(&change).0;
+            let unit: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == j % n))).collect();
+            let mut direction = vec![0.0; derivative.rows()];
+            direction[j / n * n..(j / n + 1) * n].copy_from_slice(&normal.to_normal(&unit));
+            let exact = derivative.apply(&direction);
+            for i in 0..exact.len() {
+                let difference = (plus[i] - minus[i]) / (2.0 * step);
+                assert!((difference - exact[i]).abs() < tolerance, "{j} {i}: {difference} {}", exact[i]);
+            }
+        }
+    }
+
     /// A body between two others that come together, of which one is pulled away when the impacts have accumulated: its stop opens
     /// at the end of the collapse, so when they end changes its velocity.
     #[test]
@@ -759,25 +782,7 @@ mod tests {
         let motion = Motion::new(&machine, &start(&[0.0; 6]), Limits::default()).unwrap();
         let events: Vec<EventKind> = motion.take_while(|event| event.time < until).map(|event| event.kind).collect();
         assert_eq!(events[events.len() - 2..], [EventKind::Collapse, EventKind::Release], "{events:?}");
-        let at = |change: &[f64]| flown(&machine, &start(change), until).unwrap();
-        let (_, derivative, _) = at(&[0.0; 6]);
-        let normal = Normal::new(&machine);
-        let h = 1e-5;
-        for j in 0..6 {
-            let mut change = [0.0; 6];
-            change[j] = h;
-            let plus = at(&change).0;
-            change[j] = -h;
-            let minus = at(&change).0;
-            let unit: Vec<f64> = (0..3).map(|i| f64::from(u8::from(i == j % 3))).collect();
-            let mut direction = vec![0.0; 6];
-            direction[j / 3 * 3..j / 3 * 3 + 3].copy_from_slice(&normal.to_normal(&unit));
-            let exact = derivative.apply(&direction);
-            for i in 0..6 {
-                let difference = (plus[i] - minus[i]) / (2.0 * h);
-                assert!((difference - exact[i]).abs() < 1e-9, "{j} {i}: {difference} {}", exact[i]);
-            }
-        }
+        compare(&machine, start, until, (1e-5, 1e-9));
     }
 
     /// A body strikes a wall while another one presses on it through a damper, whose force becomes a pull with the impact: this contact
@@ -796,27 +801,8 @@ mod tests {
         let motion = Motion::new(&machine, &start(&[0.0; 4]), Limits::default()).unwrap();
         let events: Vec<_> = motion.take(3).map(|event| (event.kind, event.place)).collect();
         assert_eq!(events, [(EventKind::Close, 1), (EventKind::Impact, 0), (EventKind::Open, 1)]);
-        let at = |change: &[f64]| flown(&machine, &start(change), 0.25).unwrap();
-        let normal = Normal::new(&machine);
-        let (_, derivative, kinds) = at(&[0.0; 4]);
-        assert_eq!(kinds.len(), 2);
-        let h = 1e-6;
-        for j in 0..4 {
-            let mut change = [0.0; 4];
-            change[j] = h;
-            let plus = at(&change).0;
-            change[j] = -h;
-            let minus = at(&change).0;
-            let mut unit = vec![0.0; 2];
-            unit[j % 2] = 1.0;
-            let mut direction = vec![0.0; 5];
-            direction[j / 2 * 2..j / 2 * 2 + 2].copy_from_slice(&normal.to_normal(&unit));
-            let exact = derivative.apply(&direction);
-            for i in 0..5 {
-                let difference = (plus[i] - minus[i]) / (2.0 * h);
-                assert!((difference - exact[i]).abs() < 1e-8, "{j} {i}: {difference} {}", exact[i]);
-            }
-        }
+        assert_eq!(flown(&machine, &start(&[0.0; 4]), 0.25).unwrap().2.len(), 2);
+        compare(&machine, start, 0.25, (1e-6, 1e-8));
     }
 
     /// The derivative over many events against central differences, for every kind of event.

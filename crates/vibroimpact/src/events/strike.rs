@@ -1,5 +1,6 @@
 //! Impacts on rigid stops, and what they do to all contacts.
 
+use super::advance::FAINT;
 use super::collision::{Collision, collide, depends_on_order};
 use super::motion::Motion;
 use super::passage::Blow;
@@ -111,13 +112,11 @@ impl Motion<'_> {
         }
         // and changes the velocities of the joints
         for joint in 0..self.machine.joints().len() {
-            let (speed, size) = self.place.sliding(self.machine, &self.normal, joint);
             let at = stops.len() + joint;
             candidates.retain(|candidate| *candidate != at);
-            if speed.abs() > 64.0 * f64::EPSILON * size.max(sizes[at]) {
-                self.place.states[at] = if speed > 0.0 { ContactState::Forward } else { ContactState::Backward };
-            } else {
-                candidates.push(at);
+            match self.place.slides(self.machine, &self.normal, joint, (FAINT, sizes[at])) {
+                Some(direction) => self.place.states[at] = direction,
+                None => candidates.push(at),
             }
         }
         Some(set.iter().zip(&found).filter(|(_, impulse)| **impulse > 0.0).map(|((j, ..), _)| *j).collect())

@@ -52,7 +52,7 @@ pub(crate) use constraints::bearing;
 pub use contact_state::ContactState;
 pub(crate) use guards::GuardKind;
 pub(crate) use mode::{FreeMode, Mode, Turned};
-pub(crate) use normal::{Normal, NormalRate, compliant};
+pub(crate) use normal::{Normal, NormalRate, compliant, compliant_force};
 pub(crate) use panels::{POLYNOMIALS, PRODUCTS, rates};
 pub(crate) use rest_force::RestBuffers;
 pub(crate) use sampled::{POWERS, REST, SAMPLES, Sampled, Span};

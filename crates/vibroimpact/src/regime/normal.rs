@@ -258,6 +258,12 @@ impl NormalRate {
     }
 }
 
+/// The force of a closed compliant stop at a gap and its rate; it may be a pull.
+pub(crate) fn compliant_force(law: &StopLaw, gap: f64, rate: f64) -> Option<f64> {
+    let (stiffness, damping, preload) = compliant(law)?;
+    Some(preload - stiffness * gap - damping * rate)
+}
+
 /// Stiffness, damping and preload of a compliant stop.
 pub(crate) const fn compliant(law: &StopLaw) -> Option<(f64, f64, f64)> {
     match *law {

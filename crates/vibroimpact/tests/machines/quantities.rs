@@ -400,6 +400,12 @@ fn the_momentum_of_free_bodies() {
     assert!(cycles > 15, "{cycles}");
 }
 
+/// The work per period and the sum of these losses.
+fn balance(machine: &Machine, found: &machine::Quantities, losses: &[&str]) -> (f64, f64) {
+    let of = |path: &str| number(machine, found, path);
+    (of("work_per_period"), losses.iter().map(|kind| of(&format!("{kind}_loss_per_period"))).sum())
+}
+
 /// Impacts in turn that end in rest or in a common velocity, and collapses of three bodies at rest and on a moving table: what is lost is
 /// the work.
 #[test]
@@ -435,10 +441,7 @@ fn impacts_in_turn_and_collapses_balance() {
         let machine = Machine::new(parts).unwrap();
         let cycle = settled(&machine).unwrap_or_else(|| panic!("{name} has no cycle"));
         let found = machine_cycle_quantities(&machine, &cycle).unwrap();
-        let of = |path: &str| number(&machine, &found, path);
-        let lost: f64 =
-            ["impact", "friction", "damping"].iter().map(|kind| of(&format!("{kind}_loss_per_period"))).sum();
-        let work = of("work_per_period");
+        let (work, lost) = balance(&machine, &found, &["impact", "friction", "damping"]);
         assert!((work / lost - 1.0).abs() < 1e-9, "{name} {}: {work} {lost}", cycle.label);
     }
 }
@@ -475,9 +478,7 @@ fn stiff_and_defective_machines() {
         let cycle = settled(&machine).unwrap_or_else(|| panic!("machine {case} has no cycle"));
         let found = machine_cycle_quantities(&machine, &cycle).unwrap();
         let of = |path: &str| number(&machine, &found, path);
-        let lost: f64 =
-            ["impact", "contact", "damping"].iter().map(|kind| of(&format!("{kind}_loss_per_period"))).sum();
-        let work = of("work_per_period");
+        let (work, lost) = balance(&machine, &found, &["impact", "contact", "damping"]);
         // a stiff link stores what a cycle misses to close
         let tolerance = 1e-11 + 10.0 * cycle.residual;
         assert!((work / lost - 1.0).abs() < tolerance, "machine {case} {}: {:e}", cycle.label, work / lost - 1.0);

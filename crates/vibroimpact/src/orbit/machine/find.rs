@@ -60,18 +60,11 @@ pub fn find_unreduced(
         let Ok(motion) = Motion::new(machine, &start, frame.limits()) else { continue };
         search.follow(motion)?;
     }
-    let stable: Vec<Cycle> = search.known.iter().filter(|cycle| cycle.stable()).take(BETWEEN).cloned().collect();
+    let stable = search.first(BETWEEN, Stability::Stable);
     for (i, j) in (0..stable.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
         search.between((&stable[i], &stable[j]))?;
     }
-    let unstable = search
-        .known
-        .iter()
-        .filter(|cycle| cycle.stability() == Stability::Unstable)
-        .take(LEFT)
-        .cloned()
-        .collect::<Vec<_>>();
-    for cycle in unstable {
+    for cycle in search.first(LEFT, Stability::Unstable) {
         search.leave(&cycle)?;
     }
     let mut found = search.known;
@@ -109,6 +102,11 @@ impl Search<'_> {
             self.learn_near(motion.place())?;
         }
         Some(())
+    }
+
+    /// So many of the known cycles with this stability at most.
+    fn first(&self, most: usize, stability: Stability) -> Vec<Cycle> {
+        self.known.iter().filter(|cycle| cycle.stability() == stability).take(most).cloned().collect()
     }
 
     /// Adds the cycles to which states on the border between two stable ones lead.

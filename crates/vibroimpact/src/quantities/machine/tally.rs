@@ -357,7 +357,7 @@ impl<'a> Tally<'a> {
         }
         let change: Vec<f64> = after.v.iter().zip(&before).map(|(after, before)| after - before).collect();
         // the impulses along what holds at rest that make this change
-        let held: Vec<(usize, f64)> = if chatter.iter().all(|stop| rest.held.contains(stop)) {
+        let impulses: Vec<(usize, f64)> = if chatter.iter().all(|stop| rest.held.contains(stop)) {
             rest.held.iter().zip(&rest.across).map(|(held, across)| (*held, -dot(across, &change))).collect()
         } else {
             // and along stops that have opened at the end
@@ -371,22 +371,22 @@ impl<'a> Tally<'a> {
             change_along(&rows, &mut least);
             all.into_iter().zip(least.into_iter().map(|along| -along)).collect()
         };
-        for (held, impulse) in &held {
-            if *held >= stops {
-                let joint = &mut self.sums.joints[*held - stops];
+        for (held, impulse) in impulses {
+            if held >= stops {
+                let joint = &mut self.sums.joints[held - stops];
                 joint[Sum::Impulse] += impulse;
-                joint[Sum::Work] -= impulse * machine.joints()[*held - stops].belt;
+                joint[Sum::Work] -= impulse * machine.joints()[held - stops].belt;
                 continue;
             }
-            let (sums, impulse) = (&mut self.sums.stops[*held], *impulse);
-            let moves = self.walls[*held].swing(&turns);
+            let sums = &mut self.sums.stops[held];
+            let moves = self.walls[held].swing(&turns);
             sums[Sum::Work] -= impulse * moves;
-            if chatter.contains(held) {
+            if chatter.contains(&held) {
                 // infinitely many, in a finite time
                 sums[Sum::Impacts] = f64::INFINITY;
                 sums[Sum::Impulse] += impulse;
                 // as in `event`: the gap moves with the rebound before and not at all after, so the mean is half of it
-                let rebound = moves - dot(&normal.directions[*held], &before);
+                let rebound = moves - dot(&normal.directions[held], &before);
                 sums[Sum::ImpactLoss] -= 0.5 * rebound * impulse;
             } else {
                 sums[Sum::RestImpulse] += impulse;

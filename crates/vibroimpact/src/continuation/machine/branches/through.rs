@@ -19,7 +19,7 @@ use crate::events::Place;
 use crate::machine::{Machine, Opening, StopLaw};
 use crate::math::sort_by;
 use crate::orbit::{MachineFrame, MachineRing, Push, RingEvent};
-use crate::regime::{ContactState, GuardKind, compliant, independent};
+use crate::regime::{ContactState, GuardKind, compliant, compliant_force, independent};
 
 /// The tracer beyond a point where these test functions of gaps are zero; `None` if none is found.
 pub(super) fn through_grazing(
@@ -86,6 +86,30 @@ fn first_step(
     })
 }
 
+/// The same from a tangent, which has a positive product with a row of unknowns, in its direction or else in the other one.
+fn first_step_either_way(
+    problem: &MachineProblem,
+    w: &[f64],
+    row: &[f64],
+    options: &BranchOptions,
+) -> Option<Tracer<MachineProblem>> {
+    let along = tangent(&problem.equations, w, row)?;
+    let back: Vec<f64> = along.iter().map(|t| -t).collect();
+    [along, back].iter().find_map(|along| first_step(problem, w, along, options))
+}
+
+/// The same with another ring that the motion at a solution solves, first in the direction of the number along the branch.
+fn with_the_same_motion(
+    tracer: &Tracer<MachineProblem>,
+    at: &MachineSolution,
+    (machine, ring): (&Machine, MachineRing),
+    options: &BranchOptions,
+) -> Option<Tracer<MachineProblem>> {
+    let problem = with_ring(tracer, machine, ring, at.known.cycle.as_ref()?.sizes);
+    let w = MachineEquations::join(machine, &problem.equations.ring, [last(&at.w)]);
+    first_step_either_way(&problem, &w, &unit(w.len(), w.len() - 1, forward(at)), options)
+}
+
 /// Adds to a row of unknowns the direction in which a contact with a stop from event `first` to event `end` grows: it lasts longer, or,
 /// where both are one impact, its velocity away from the stop is larger. Without a rebound this velocity is 0: then it is the
 /// direction in which the impact comes earlier, which may be the other one.
@@ -149,9 +173,7 @@ fn appearing(
         let end = index + usize::from(ring.contact(index).is_some());
         grows(&frame, &mut row, (index, end), *stop);
     }
-    let along = tangent(&problem.equations, &w, &row)?;
-    let back: Vec<f64> = along.iter().map(|t| -t).collect();
-    [along, back].iter().find_map(|along| first_step(&problem, &w, along, options))
+    first_step_either_way(&problem, &w, &row, options)
 }
 
 /// Inserts an impact of speed zero on these rigid stops at once, or a contact with a compliant one that lasts for no time, as event
@@ -196,20 +218,19 @@ pub(super) fn through_ending(
 ) -> Option<Tracer<MachineProblem>> {
     let Difference::Corner { first: stop, second } = *found else { return None };
     let (machine, ring) = tracer.problem.equations.split(&at.w)?;
-    let (stiffness, damping, preload) = compliant(&machine.stops().get(stop).filter(|_| stop == second)?.law)?;
+    let law = machine.stops().get(stop).filter(|_| stop == second)?.law;
+    let (stiffness, ..) = compliant(&law)?;
     let frame = MachineFrame::new(&machine);
     let ends = |k: &usize| matches!(ring.events[*k].guard, GuardKind::Force(of) | GuardKind::Depth(of) if of == stop);
     let off = |k: &usize| {
         let (gap, rate) = frame.gap(&ring.place(*k), stop);
-        gap.abs() + (preload - stiffness * gap - damping * rate).abs() / stiffness
+        gap.abs() + compliant_force(&law, gap, rate).map_or(0.0, f64::abs) / stiffness
     };
     let k = (0..ring.len()).filter(ends).min_by(|a, b| off(a).total_cmp(&off(b)))?;
     let next = ring.ending_otherwise(&frame, k, stop)?;
     let problem = with_ring(tracer, &machine, next, at.known.cycle.as_ref()?.sizes);
     let w = MachineEquations::join(&machine, &problem.equations.ring, [last(&at.w)]);
-    let along = tangent(&problem.equations, &w, &problem.equations.row(&at.tangent))?;
-    let back: Vec<f64> = along.iter().map(|t| -t).collect();
-    [along, back].iter().find_map(|along| first_step(&problem, &w, along, options))
+    first_step_either_way(&problem, &w, &problem.equations.row(&at.tangent), options)
 }
 
 /// The tracer beyond the end of a hold that takes no time: the motion is that of the cycle in which the joint turns back instead.
@@ -221,12 +242,7 @@ pub(super) fn through_turn(
     let Difference::Rest { place, joint: true, .. } = *found else { return None };
     let (machine, mut ring) = tracer.problem.equations.split(&at.w)?;
     join(&MachineFrame::new(&machine), &mut ring, place).then_some(())?;
-    let problem = with_ring(tracer, &machine, ring, at.known.cycle.as_ref()?.sizes);
-    let w = MachineEquations::join(&machine, &problem.equations.ring, [last(&at.w)]);
-    let row = unit(w.len(), w.len() - 1, forward(at));
-    let along = tangent(&problem.equations, &w, &row)?;
-    let back: Vec<f64> = along.iter().map(|t| -t).collect();
-    [along, back].iter().find_map(|along| first_step(&problem, &w, along, options))
+    with_the_same_motion(tracer, at, (&machine, ring), options)
 }
 
 /// Without the impacts or contacts `gone`, whose speed is zero. What is left can be several times a shorter cycle.
@@ -252,13 +268,7 @@ fn disappearing(
     for stop in stops {
         next.set_surface(&frame, stop)?;
     }
-    let next = next.shortest(&frame, sizes);
-    let problem = with_ring(tracer, machine, next, sizes);
-    let w = MachineEquations::join(machine, &problem.equations.ring, [last(&at.w)]);
-    let row = unit(w.len(), w.len() - 1, forward(at));
-    let along = tangent(&problem.equations, &w, &row)?;
-    let back: Vec<f64> = along.iter().map(|t| -t).collect();
-    [along, back].iter().find_map(|along| first_step(&problem, &w, along, options))
+    with_the_same_motion(tracer, at, (machine, next.shortest(&frame, sizes)), options)
 }
 
 /// The direction of the number along the branch.
