@@ -215,38 +215,53 @@ impl<'a> ByNumber<'a> {
         structure: &Structure,
         at: &Instant<'_>,
         reactions: &[f64],
-        (x, v): (&[f64], &[f64]),
+        change: (&[f64], &[f64]),
     ) -> Option<Vec<f64>> {
-        let mut force: Vec<f64> = self.force.iter().map(|force| force.at((at.turns, at.shift))).collect();
-        subtract(&mut force, &self.rate.stiffness, at.x);
-        subtract(&mut force, &self.rate.damping, at.v);
-        subtract(&mut force, &self.normal.stiffness, x);
-        subtract(&mut force, &self.normal.damping, v);
-        for closed in &structure.closed {
-            let (pull, change) = self.pull(closed.place, at, (x, v))?;
-            add_scaled(&mut force, pull, &self.rate.directions[closed.place]);
-            add_scaled(&mut force, change, &self.normal.directions[closed.place]);
-        }
-        for (place, own, change) in self.sliding(structure) {
-            add_scaled(&mut force, own, &self.rate.directions[place]);
-            add_scaled(&mut force, change, &self.normal.directions[place]);
-        }
-        // a reaction pushes against its direction, which the number turns
-        for (place, reaction) in structure.held.iter().zip(reactions) {
-            add_scaled(&mut force, -reaction, &self.rate.directions[*place]);
-        }
+        let mut force = Vec::new();
+        self.force_into(structure, at, reactions, change, &mut force)?;
         Some(force)
     }
 
+    /// The same into a vector that is used again.
+    fn force_into(
+        &self,
+        structure: &Structure,
+        at: &Instant<'_>,
+        reactions: &[f64],
+        (x, v): (&[f64], &[f64]),
+        force: &mut Vec<f64>,
+    ) -> Option<()> {
+        force.clear();
+        force.extend(self.force.iter().map(|force| force.at((at.turns, at.shift))));
+        subtract(force, &self.rate.stiffness, at.x);
+        subtract(force, &self.rate.damping, at.v);
+        subtract(force, &self.normal.stiffness, x);
+        subtract(force, &self.normal.damping, v);
+        for closed in &structure.closed {
+            let (pull, change) = self.pull(closed.place, at, (x, v))?;
+            add_scaled(force, pull, &self.rate.directions[closed.place]);
+            add_scaled(force, change, &self.normal.directions[closed.place]);
+        }
+        for (place, own, change) in self.sliding(structure) {
+            add_scaled(force, own, &self.rate.directions[place]);
+            add_scaled(force, change, &self.normal.directions[place]);
+        }
+        // a reaction pushes against its direction, which the number turns
+        for (place, reaction) in structure.held.iter().zip(reactions) {
+            add_scaled(force, -reaction, &self.rate.directions[*place]);
+        }
+        Some(())
+    }
+
     /// The change of the state that the constraints carry along.
-    fn carried(&self, structure: &Structure, at: &Instant<'_>) -> StateChange {
+    fn carried_into(&self, structure: &Structure, at: &Instant<'_>, still: &[f64], carried: &mut StateChange) {
         let stops = self.machine.stops().len();
-        let still = vec![0.0; self.normal.n];
-        let mut carried = StateChange::zero(self.normal.n);
+        carried.x.fill(0.0);
+        carried.v.fill(0.0);
         // what the constraints demand: gaps that stay zero, joints that stay where they began on their belt
         for (place, across) in structure.held.iter().zip(&structure.across) {
             let (way, rate) = if *place < stops {
-                self.gap_change(*place, at, (&still, &still))
+                self.gap_change(*place, at, (still, still))
             } else {
                 let (change, belt) = (&self.rate.directions[*place], self.parts.joints[*place - stops].belt);
                 (belt * at.time + dot(change, at.begin) - dot(change, at.x), belt - dot(change, at.v))
@@ -254,7 +269,6 @@ impl<'a> ByNumber<'a> {
             add_scaled(&mut carried.x, way, across);
             add_scaled(&mut carried.v, rate, across);
         }
-        carried
     }
 
     /// The change of the state `before` at the end of the flight from `from` over a time.
@@ -274,6 +288,7 @@ impl<'a> ByNumber<'a> {
         let mut seen = Seen::default();
         let still = vec![0.0; n];
         let (mut change, mut buffers, mut free) = (ModalChange::default(), RestBuffers::default(), Vec::new());
+        let (mut carried, mut force) = (StateChange::zero(n), Vec::new());
         let all = if modes > 0 && self.acts(structure) {
             // decays are steep at the beginning, and those of the transition at the end
             PRODUCTS.between_ends(&rates(structure), time.abs(), MOST_PANELS)?
@@ -287,8 +302,8 @@ impl<'a> ByNumber<'a> {
                 let at = seen.at(flight, t, pace * t, &from.x);
                 // the change of the acceleration at this point, carried on to the end of the flight
                 let reactions = self.reactions(structure, &at);
-                let carried = self.carried(structure, &at);
-                let force = self.force(structure, &at, &reactions, (&carried.x, &carried.v))?;
+                self.carried_into(structure, &at, &still, &mut carried);
+                self.force_into(structure, &at, &reactions, (&carried.x, &carried.v), &mut force)?;
                 structure.modal_change_into(self.normal, (&still, &force), &mut buffers, &mut change);
                 structure.free_modes(time - t, &mut free);
                 structure.carry(&mut change, &free, time - t);
@@ -297,7 +312,8 @@ impl<'a> ByNumber<'a> {
                 add_scaled(&mut sum.v, weight, &change.v);
             }
         }
-        let mut end = self.carried(structure, &seen.at(flight, time, pace * time, &from.x));
+        let mut end = carried;
+        self.carried_into(structure, &seen.at(flight, time, pace * time, &from.x), &still, &mut end);
         for i in 0..n {
             end.x[i] += structure.changed(&structure.x[i], &sum);
             end.v[i] += structure.changed(&structure.v[i], &sum);

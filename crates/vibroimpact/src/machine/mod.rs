@@ -24,6 +24,7 @@ pub use checks::MOST_COORDINATES;
 pub use error::{Fault, MachineError};
 pub use modal::modal_damping;
 pub use parts::{FrictionJoint, HarmonicForce, HarmonicMotion, ImpactLaw, MachineParts, Opening, Stop, StopLaw};
+pub(crate) use rate::RateGrid;
 pub(crate) use reduced::VariedReduction;
 pub use reduced::{OneCoordinate, Reduction, RigidStop};
 pub use spring_damper::SpringDamper;

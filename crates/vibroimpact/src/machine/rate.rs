@@ -1,6 +1,9 @@
 //! The derivatives of all numbers of a machine by another one.
 
 use super::parts::{FrictionJoint, HarmonicForce, MachineParts, Stop, StopLaw};
+use core::cell::RefCell;
+use std::collections::HashMap;
+use std::sync::Arc;
 
 /// The step of differences, relative to the scale of the number.
 const STEP: f64 = 1e-3;
@@ -35,16 +38,121 @@ impl MachineParts {
     /// The derivatives of all numbers of a machine by another number of this `scale`, at `value`; exact to rounding where they are
     /// linear in it.
     pub(crate) fn rate(at: &dyn Fn(f64) -> Option<Self>, (value, scale): (f64, f64)) -> Option<Self> {
-        let mut rate = at(value)?;
-        let numbers = |value: f64| {
-            let mut all = Vec::new();
-            at(value)?.each_number(&mut |number| all.push(*number));
-            Some(all)
-        };
-        let mut slopes = derivative(&numbers, (value, scale))?.into_iter();
-        rate.each_number(&mut |number| *number = slopes.next().unwrap_or(0.0));
-        Some(rate)
+        let slopes = derivative(&|value| Some(at(value)?.all_numbers()), (value, scale))?;
+        Some(at(value)?.with_numbers(slopes))
     }
+
+    fn all_numbers(mut self) -> Vec<f64> {
+        let mut all = Vec::new();
+        self.each_number(&mut |number| all.push(*number));
+        all
+    }
+
+    fn with_numbers(mut self, numbers: Vec<f64>) -> Self {
+        let mut numbers = numbers.into_iter();
+        self.each_number(&mut |number| *number = numbers.next().unwrap_or(0.0));
+        self
+    }
+}
+
+/// Machines at the nodes of a grid of values of a number: the exponent of the distance of its nodes, a power of two, and the count of
+/// these from 0.
+type Grid = HashMap<(i32, i64), Option<Arc<MachineParts>>>;
+
+/// Derivatives of all numbers of a machine by another one, by interpolation between machines at the nodes of a grid. They serve
+/// all values beside them, so that few machines are made along a branch. The nodes are always the same: which values were asked for before
+/// changes nothing.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RateGrid(RefCell<Grid>);
+
+/// Nodes on each side of a value.
+const HALF: i64 = 4;
+/// The largest distance of nodes, in parts of the size of the number.
+const WIDTH: f64 = 0.008;
+/// Derivatives from all nodes and from those without the outer ones differ by less, relative to the numbers: otherwise they
+/// vary too much for so few nodes.
+const ALIKE: f64 = 1e-8;
+/// The largest number of machines that are kept.
+const KEPT: usize = 64;
+/// From this number of nodes between 0 and the value on, their values are not told apart well.
+const FAR: f64 = 1e9;
+
+impl RateGrid {
+    /// The same as [`MachineParts::rate`].
+    pub(crate) fn rate(
+        &self,
+        at: &dyn Fn(f64) -> Option<MachineParts>,
+        (value, scale): (f64, f64),
+    ) -> Option<MachineParts> {
+        // nodes that are farther apart serve more values
+        let sizes = [scale.max(value.abs()), scale.min(value.abs().max(0.1 * scale))];
+        let found = sizes.into_iter().find_map(|size| self.interpolated(at, (value, size)));
+        found.or_else(|| MachineParts::rate(at, (value, scale)))
+    }
+
+    /// The same where the number has this size; `None` where machines are not allowed at all nodes, or where they vary too much.
+    fn interpolated(
+        &self,
+        at: &dyn Fn(f64) -> Option<MachineParts>,
+        (value, size): (f64, f64),
+    ) -> Option<MachineParts> {
+        // a power of two, so that the nodes are exact
+        let exponent = libm::ilogb(WIDTH * size);
+        let width = libm::ldexp(1.0, exponent);
+        let place = value / width;
+        if !(size > 0.0 && place.abs() < FAR) {
+            return None;
+        }
+        #[allow(clippy::cast_possible_truncation)] // below the limit
+        let first = place.floor() as i64;
+        let nodes: Vec<Arc<MachineParts>> =
+            (1 - HALF..=HALF).map(|k| self.node(at, (exponent, first + k), width)).collect::<Option<_>>()?;
+        let numbers: Vec<Vec<f64>> = nodes.iter().map(|node| node.as_ref().clone().all_numbers()).collect();
+        let share = place - place.floor();
+        let (all, inner) = (slopes(share, HALF), slopes(share, HALF - 1));
+        let count = numbers.first()?.len();
+        let rate = |i: usize| {
+            let of = |weights: &[f64], skipped: usize| -> f64 {
+                weights.iter().zip(&numbers[skipped..]).map(|(weight, numbers)| weight * numbers[i]).sum::<f64>()
+                    / width
+            };
+            let (rate, other) = (of(&all, 0), of(&inner, 1));
+            let alike = (rate - other).abs() <= ALIKE * (rate.abs() + numbers[0][i].abs() / size);
+            alike.then_some(rate)
+        };
+        let rates: Vec<f64> = (0..count).map(rate).collect::<Option<_>>()?;
+        Some(nodes[0].as_ref().clone().with_numbers(rates))
+    }
+
+    fn node(
+        &self,
+        at: &dyn Fn(f64) -> Option<MachineParts>,
+        place: (i32, i64),
+        width: f64,
+    ) -> Option<Arc<MachineParts>> {
+        let mut grid = self.0.borrow_mut();
+        if grid.len() > KEPT {
+            grid.clear();
+        }
+        #[allow(clippy::cast_precision_loss)] // below the limit
+        let of = || at(place.1 as f64 * width).map(Arc::new);
+        grid.entry(place).or_insert_with(of).clone()
+    }
+}
+
+/// The weights of values at so many nodes on each side, at -2, -1, 0, 1, 2, 3 for three, in the derivative of their polynomial at `x`.
+fn slopes(x: f64, half: i64) -> Vec<f64> {
+    #[allow(clippy::cast_precision_loss)] // a few
+    let nodes: Vec<f64> = (1 - half..=half).map(|k| k as f64).collect();
+    let others = |k: usize| nodes.iter().enumerate().filter(move |(i, _)| *i != k);
+    let weight = |k: usize| {
+        let each = others(k).map(|(i, node)| {
+            let rest = others(k).filter(|(j, _)| *j != i).map(|(_, other)| (x - other) / (nodes[k] - other));
+            rest.product::<f64>() / (nodes[k] - node)
+        });
+        each.sum()
+    };
+    (0..nodes.len()).map(weight).collect()
 }
 
 /// The derivative of several numbers at `value`, where another one varies on this `scale`: from differences of the fourth

@@ -265,7 +265,7 @@ impl Search<'_> {
         let [by, up] = self.plane.scales().map(|scale| BESIDE * scale);
         [(by, 0.0), (-by, 0.0), (0.0, up), (0.0, -up)].into_iter().find_map(|(dp, dq)| {
             let machine = self.plane.family.machine([p + dp, q + dq])?;
-            let lap = MachineLap::fly(&MachineFrame::new(&machine), cycle.strobes.first()?, cycle.period)?;
+            let lap = MachineLap::replay(&MachineFrame::new(&machine), cycle.strobes.first()?, cycle.period)?;
             let count = lap.events.iter().filter(|event| event.closes()).count();
             match count.cmp(&(closings as usize)) {
                 // an impact has lost its speed, or a new one has come

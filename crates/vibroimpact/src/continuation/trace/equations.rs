@@ -51,6 +51,16 @@ pub(crate) fn unit(width: usize, k: usize, factor: f64) -> Vec<f64> {
 /// The solution near `guess` at which the product of `row` and the unknowns is `level`, with the number of corrections;
 /// `None` if Newton's method does not converge.
 pub(crate) fn correct<E: Equations>(equations: &E, guess: &[f64], row: &[f64], level: f64) -> Option<(Vec<f64>, u32)> {
+    corrected(equations, guess, row, level).map(|(w, count, _)| (w, count))
+}
+
+/// The same, with the factors of the derivatives at the last correction, whose last row is `row`.
+pub(crate) fn corrected<E: Equations>(
+    equations: &E,
+    guess: &[f64],
+    row: &[f64],
+    level: f64,
+) -> Option<(Vec<f64>, u32, Lu)> {
     let width = guess.len();
     let mut w = guess.to_vec();
     for count in 1..=MAX_CORRECTIONS {
@@ -59,7 +69,8 @@ pub(crate) fn correct<E: Equations>(equations: &E, guess: &[f64], row: &[f64], l
         rows[width * (width - 1)..].copy_from_slice(row);
         let off: f64 = row.iter().zip(&w).map(|(r, w)| r * w).sum::<f64>() - level;
         let mut change: Vec<f64> = miss.iter().map(|m| -m).chain([-off]).collect();
-        Lu::new(rows, width)?.solve(&mut change);
+        let factors = Lu::new(rows, width)?;
+        factors.solve(&mut change);
         let size = equations.length(&change);
         if size.is_nan() || size > ASTRAY {
             return None;
@@ -69,7 +80,7 @@ pub(crate) fn correct<E: Equations>(equations: &E, guess: &[f64], row: &[f64], l
         }
         // the method is quadratic: the next correction would be below rounding
         if size <= SETTLED {
-            return Some((w, count));
+            return Some((w, count, factors));
         }
     }
     None
@@ -81,9 +92,14 @@ pub(crate) fn tangent<E: Equations>(equations: &E, w: &[f64], row: &[f64]) -> Op
     let width = w.len();
     let (_, mut rows) = equations.at(w)?;
     rows[width * (width - 1)..].copy_from_slice(row);
+    tangent_of(equations, &Lu::new(rows, width)?, width)
+}
+
+/// The same for the factors of derivatives with such a row, for so many unknowns.
+pub(crate) fn tangent_of<E: Equations>(equations: &E, factors: &Lu, width: usize) -> Option<Vec<f64>> {
     // along the curve no equation changes; the last one gives the direction
     let mut along = unit(width, width - 1, 1.0);
-    Lu::new(rows, width)?.solve(&mut along);
+    factors.solve(&mut along);
     let length = equations.length(&along);
     if !(length > 0.0 && length.is_finite()) {
         return None;

@@ -7,7 +7,7 @@
 //! changed sign, its zero is bracketed along the step. Every point that is tried is a converged solution, so an event
 //! is correct to rounding.
 
-use super::equations::{Equations, correct, tangent, unit};
+use super::equations::{Equations, correct, corrected, tangent, tangent_of, unit};
 use super::step_length::StepLength;
 use crate::math::root;
 use crate::math::sort_by;
@@ -19,6 +19,10 @@ pub(crate) trait Problem: Clone + Debug {
     /// What is known of a solution apart from its unknowns and test functions.
     type Known: Clone + Debug;
     type Equations: Equations;
+
+    /// Whether equations take so long that it pays to evaluate them less often: solutions are predicted to second order, and a tangent
+    /// is taken from the last correction, which is below 1e-9.
+    const SLOW: bool = false;
 
     fn equations(&self) -> &Self::Equations;
 
@@ -121,7 +125,12 @@ pub(crate) struct Tracer<P: Problem> {
     pub(crate) signs: Vec<Option<bool>>,
     pub(crate) here: Solution<P::Known>,
     pub(crate) step: StepLength,
+    /// The derivative of the tangent along the curve before the current solution, where it is known.
+    bend: Option<Vec<f64>>,
 }
+
+/// A corrected point: its unknowns, the number of corrections, and its tangent if that is known already.
+type Corrected = (Vec<f64>, u32, Option<Vec<f64>>);
 
 impl<P: Problem> Tracer<P> {
     /// Begins at the solution `w` with the unit tangent `along`; `None` if a test function has no value there.
@@ -129,7 +138,7 @@ impl<P: Problem> Tracer<P> {
         let (values, known) = problem.look(&w, &along)?;
         let zero = problem.rules().zero;
         let signs = values.iter().map(|&value| sign(value, zero)).collect();
-        Some(Self { problem, signs, here: Solution { w, tangent: along, values, known }, step })
+        Some(Self { problem, signs, here: Solution { w, tangent: along, values, known }, step, bend: None })
     }
 
     /// The sign of a value of a test function; `None` within rounding of zero.
@@ -181,13 +190,22 @@ impl<P: Problem> Tracer<P> {
         });
         let h = end.map_or(h, |(_, to_end)| to_end);
         let guess: Vec<f64> = here.w.iter().zip(&here.tangent).map(|(w, t)| w + h * t).collect();
-        let (w, corrections) = match end {
+        // where the curve bends much, the second order says nothing
+        let bend = self.bend.as_ref().filter(|bend| self.problem.equations().length(bend) * h < rules.stray);
+        let near: Vec<f64> = bend.map_or_else(
+            || guess.clone(),
+            |bend| guess.iter().zip(bend).map(|(w, bend)| w + 0.5 * h * h * bend).collect(),
+        );
+        let (w, corrections, along) = match end {
             // a solution exactly on the end, because the parameter can be invalid beyond it
-            Some((end, _)) => self.on_end(&guess, end)?,
-            None => self.across(&guess, h)?,
+            Some((end, _)) => {
+                let (w, corrections) = self.on_end(&near, end)?;
+                (w, corrections, None)
+            }
+            None => self.across(&near, h)?,
         };
         let off: Vec<f64> = w.iter().zip(&guess).map(|(w, g)| w - g).collect();
-        let along = self.tangent_at(&w)?;
+        let along = along.or_else(|| self.tangent_at(&w))?;
         let cosine = self.problem.equations().dot(&along, &here.tangent);
         // written so that a number that is no number refuses the step
         if !(self.problem.equations().length(&off) <= rules.stray * h + rules.rounding && cosine >= rules.bend) {
@@ -217,11 +235,14 @@ impl<P: Problem> Tracer<P> {
         Some(step)
     }
 
-    /// The solution near `guess` at the distance `h` along the current tangent, and the number of corrections.
-    fn across(&self, guess: &[f64], h: f64) -> Option<(Vec<f64>, u32)> {
-        let row = self.problem.equations().row(&self.here.tangent);
-        let level = self.problem.equations().dot(&self.here.tangent, &self.here.w) + h;
-        correct(self.problem.equations(), guess, &row, level)
+    /// The solution near `guess` at the distance `h` along the current tangent.
+    fn across(&self, guess: &[f64], h: f64) -> Option<Corrected> {
+        let equations = self.problem.equations();
+        let row = equations.row(&self.here.tangent);
+        let level = equations.dot(&self.here.tangent, &self.here.w) + h;
+        let (w, corrections, factors) = corrected(equations, guess, &row, level)?;
+        let along = if P::SLOW { tangent_of(equations, &factors, w.len()) } else { None };
+        Some((w, corrections, along))
     }
 
     /// The solution near `guess` whose last unknown is exactly `end`, and the number of corrections.
@@ -263,8 +284,27 @@ impl<P: Problem> Tracer<P> {
 
     /// The solution at the distance `s` along a step.
     pub(crate) fn between(&self, step: &Step<P::Known>, s: f64) -> Option<Vec<f64>> {
-        let guess = self.chord(&step.there, s / step.length);
-        Some(self.across(&guess, s)?.0)
+        Some(self.found_between(step, s)?.0)
+    }
+
+    fn found_between(&self, step: &Step<P::Known>, s: f64) -> Option<Corrected> {
+        let mut guess = self.chord(&step.there, s / step.length);
+        if P::SLOW {
+            self.round(&mut guess, step, s / step.length);
+        }
+        self.across(&guess, s)
+    }
+
+    /// Moves the point at this share of the chord of a step onto the cubic with the tangents at both ends.
+    fn round(&self, point: &mut [f64], step: &Step<P::Known>, share: f64) {
+        // lengths are those along the tangent at the beginning
+        let pace = self.problem.equations().dot(&self.here.tangent, &step.there.tangent);
+        let (before, after) = (share * (1.0 - share) * (1.0 - share), share * share * (share - 1.0));
+        let ways = self.here.w.iter().zip(&step.there.w).zip(self.here.tangent.iter().zip(&step.there.tangent));
+        for (point, ((one, other), (from, to))) in point.iter_mut().zip(ways) {
+            let chord = other - one;
+            *point += before * (step.length * from - chord) + after * (step.length * to / pace - chord);
+        }
     }
 
     /// The point at this share of the chord to a solution.
@@ -274,7 +314,11 @@ impl<P: Problem> Tracer<P> {
 
     /// The solution at the distance `s` along a step, with its tangent and test functions.
     pub(crate) fn at(&self, step: &Step<P::Known>, s: f64) -> Option<Solution<P::Known>> {
-        self.solution(self.between(step, s)?)
+        let (w, _, along) = self.found_between(step, s)?;
+        match along {
+            Some(along) => self.solution_along(w, along),
+            None => self.solution(w),
+        }
     }
 
     /// The distance along a step at which test function `j` is zero. It must change sign on the step.
@@ -340,6 +384,11 @@ impl<P: Problem> Tracer<P> {
         for (known, value) in self.signs.iter_mut().zip(&there.values) {
             // within rounding of zero the last known sign stays
             *known = sign(*value, zero).or(*known);
+        }
+        if P::SLOW {
+            let length = self.ahead(&there.w);
+            let turned = there.tangent.iter().zip(&self.here.tangent).map(|(after, before)| (after - before) / length);
+            self.bend = (length > 0.0).then(|| turned.collect());
         }
         self.here = there;
         // new weights change the length of the tangent, which has to be 1

@@ -32,7 +32,7 @@ fn find(frame: &MachineFrame<'_>, (a, b): (&Cycle, &Cycle), go_on: &dyn Fn() -> 
     // the states of the second orbit at the phase of the first one
     let ahead = frame.machine.parts().frequency.map(|frequency| phase::wrap(from.phase - other.phase) / frequency);
     let moved =
-        |place: &Place| ahead.map_or_else(|| Some(place.clone()), |s| Some(MachineLap::fly(frame, place, s)?.end));
+        |place: &Place| ahead.map_or_else(|| Some(place.clone()), |s| Some(MachineLap::replay(frame, place, s)?.end));
     let others: Vec<Place> = b.strobes.iter().map(moved).collect::<Option<_>>()?;
     let to = others.first()?;
     if from.states != to.states {
@@ -58,7 +58,7 @@ fn find(frame: &MachineFrame<'_>, (a, b): (&Cycle, &Cycle), go_on: &dyn Fn() -> 
             if close((b, &others), &place) || !go_on() {
                 return Some(false);
             }
-            place = MachineLap::fly(frame, &place, time)?.end;
+            place = MachineLap::replay(frame, &place, time)?.end;
         }
         None
     };
@@ -72,7 +72,7 @@ fn find(frame: &MachineFrame<'_>, (a, b): (&Cycle, &Cycle), go_on: &dyn Fn() -> 
     let mut guesses = Vec::new();
     for _ in 0..GUESSES {
         guesses.push(place.clone());
-        place = MachineLap::fly(frame, &place, time)?.end;
+        place = MachineLap::replay(frame, &place, time)?.end;
     }
     Some(guesses)
 }

@@ -77,7 +77,7 @@ impl Cycle {
         #[allow(clippy::cast_precision_loss)] // a small count
         let parts = parts.map(|parts| lap.time / parts as f64);
         for time in parts {
-            let short = MachineLap::fly(frame, &begin, time)?;
+            let short = MachineLap::replay(frame, &begin, time)?;
             if frame.distance(&begin, &short.end, lap.sizes) <= SAME {
                 let (begin, lap, residual) = closed(frame, &begin, time)?;
                 return alone(&begin, &lap, residual);
@@ -101,7 +101,7 @@ impl Cycle {
         let mut strobes = vec![begin.clone()];
         for k in 1..n {
             let last = strobes.last()?;
-            let next = MachineLap::fly(frame, last, one)?.end;
+            let next = MachineLap::replay(frame, last, one)?.end;
             if n.is_multiple_of(k) && frame.distance(begin, &next, lap.sizes) <= SAME {
                 let lap = MachineLap::fly(frame, begin, one * f64::from(k))?;
                 let residual = frame.distance(begin, &lap.end, lap.sizes);
@@ -117,7 +117,7 @@ impl Cycle {
 /// forcing, and a guess of it without.
 fn closed(frame: &MachineFrame<'_>, from: &Place, mut time: f64) -> Option<(Place, MachineLap, f64)> {
     // begin in the middle of the longest flight, far from all events
-    let first = MachineLap::fly(frame, from, time)?;
+    let first = MachineLap::replay(frame, from, time)?;
     let (_, place, passage) = first.steps.iter().max_by(|a, b| a.2.duration.total_cmp(&b.2.duration))?;
     let mut begin = frame.moved(place, &passage.structure, 0.5 * passage.duration.min(time));
     frame.centre(&mut begin);

@@ -19,7 +19,7 @@ pub(crate) fn passing<'c>(
         Some(frequency) => {
             let first = cycle.strobes.first()?;
             let ahead = phase::wrap(first.phase - place.phase) / frequency;
-            let mut real = MachineLap::fly(frame, place, ahead)?.end;
+            let mut real = MachineLap::replay(frame, place, ahead)?.end;
             real.phase = first.phase;
             real
         }
@@ -40,7 +40,7 @@ pub(crate) fn crossing(frame: &MachineFrame<'_>, place: &Place, cycle: &Cycle) -
     let scale = |i: usize| if (n..2 * n).contains(&i) { 1.0 / (speed * speed) } else { 1.0 / (size * size) };
     let flow = frame.flow(state)?;
     let along = |of: &[f64]| flow.iter().zip(of).enumerate().map(|(i, (f, x))| f * x * scale(i)).sum::<f64>();
-    let lap = MachineLap::fly(frame, place, period)?;
+    let lap = MachineLap::replay(frame, place, period)?;
     let flights = lap.steps.iter().filter(|(_, begin, _)| begin.states == state.states);
     let crossings = flights.filter_map(|(_, begin, passage)| {
         let whole = passage.duration.min(period);

@@ -4,7 +4,7 @@ use super::frame::{MachineFrame, distance};
 use super::lap::MachineLap;
 use super::multipliers::multipliers;
 use crate::events::{Event, EventKind, Place, Start};
-use crate::math::Multiplier;
+use crate::math::{Multiplier, ln};
 use crate::orbit::{Count, Label, Stability};
 use crate::regime::Translations;
 use crate::system::phase;
@@ -48,6 +48,34 @@ pub struct Cycle {
     pub(crate) rounding: f64,
     /// The free translations of the machine.
     pub(crate) free: Translations,
+}
+
+/// What is known of the neighbours of a cycle.
+#[derive(Clone, Debug)]
+pub(crate) struct Neighbours {
+    pub(crate) multipliers: Vec<Multiplier>,
+    /// The logarithms of their moduli.
+    logs: Vec<f64>,
+    /// The rounding error of the derivative over one period.
+    rounding: f64,
+}
+
+impl Neighbours {
+    /// Those of which the multipliers are known, of a derivative over one period with this rounding error.
+    pub(crate) fn new(multipliers: Vec<Multiplier>, rounding: f64) -> Self {
+        Self { logs: multipliers.iter().map(|of| ln(of.modulus())).collect(), multipliers, rounding }
+    }
+
+    /// Those of the motion over one period from `begin`.
+    fn of(frame: &MachineFrame<'_>, begin: &Place, lap: &MachineLap) -> Self {
+        let rounding = lap.rounding(frame);
+        let Some(all) = multipliers(frame, begin, lap) else {
+            let infinite = Multiplier { re: f64::INFINITY, im: 0.0 };
+            return Self::new(vec![infinite; frame.multipliers()], rounding);
+        };
+        let logs = all.iter().map(|of| of.log).collect();
+        Self { multipliers: all.into_iter().map(|of| of.multiplier).collect(), logs, rounding }
+    }
 }
 
 /// What rounding leaves of no drift, relative to the motion.
@@ -155,6 +183,17 @@ impl Cycle {
         residual: f64,
         strobes: Vec<Place>,
     ) -> Self {
+        Self::beside(frame, (begin, n), lap, (residual, strobes), Neighbours::of(frame, begin, lap))
+    }
+
+    /// The same where its neighbours are known.
+    pub(crate) fn beside(
+        frame: &MachineFrame<'_>,
+        (begin, n): (&Place, u32),
+        lap: &MachineLap,
+        (residual, strobes): (f64, Vec<Place>),
+        Neighbours { multipliers, logs, rounding }: Neighbours,
+    ) -> Self {
         let period = lap.time;
         let mut events = lap.events.clone();
         let fastest = (0..events.len())
@@ -179,14 +218,6 @@ impl Cycle {
             .collect();
         let chatter = lap.completes_chatter(frame);
         let impacts = if chatter { Count::Infinite } else { Count::Finite(counts.iter().sum()) };
-        let stretchings = multipliers(frame, begin, lap);
-        let logs = stretchings
-            .as_ref()
-            .map_or_else(|| vec![f64::INFINITY; frame.multipliers()], |all| all.iter().map(|of| of.log).collect());
-        let multipliers = stretchings.map_or_else(
-            || vec![Multiplier { re: f64::INFINITY, im: 0.0 }; frame.multipliers()],
-            |all| all.into_iter().map(|of| of.multiplier).collect(),
-        );
         let free = frame.normal.translations.clone();
         let moved: Vec<f64> = lap.end.x.iter().zip(&begin.x).map(|(end, begin)| end - begin).collect();
         let mut drift = frame.normal.to_machine(&free.part(&moved));
@@ -205,7 +236,7 @@ impl Cycle {
             state: begin.start(frame.machine, &frame.normal),
             strobes,
             sizes: lap.sizes,
-            rounding: lap.rounding(frame),
+            rounding,
             free,
         }
     }

@@ -13,7 +13,7 @@ pub(crate) struct MachineLap {
     pub(crate) time: f64,
     /// The state at the end.
     pub(crate) end: Place,
-    /// The derivative of the state at the end by that at the beginning; `None` if a guard was only touched.
+    /// The derivative of the state at the end by that at the beginning; `None` if a guard was only touched, or if nobody asked for it.
     pub(crate) derivative: Option<Matrix>,
     /// The steps, each with the state at its beginning and the time of that.
     pub(crate) steps: Vec<(f64, Place, Passage)>,
@@ -79,13 +79,27 @@ impl MachineLap {
 
     /// The motion from `begin` over a time. `None` if it ends before.
     pub(crate) fn fly(frame: &MachineFrame<'_>, begin: &Place, time: f64) -> Option<Self> {
-        Self::fly_in(frame, begin, time, STEPS)
+        Self::along(frame, begin, (time, STEPS), Some(Matrix::identity(frame.shape.size())))
+    }
+
+    /// The same without the derivative.
+    pub(crate) fn replay(frame: &MachineFrame<'_>, begin: &Place, time: f64) -> Option<Self> {
+        Self::replay_in(frame, begin, time, STEPS)
     }
 
     /// The same; `None` if it has more than so many steps.
-    pub(crate) fn fly_in(frame: &MachineFrame<'_>, begin: &Place, time: f64, most: usize) -> Option<Self> {
+    pub(crate) fn replay_in(frame: &MachineFrame<'_>, begin: &Place, time: f64, most: usize) -> Option<Self> {
+        Self::along(frame, begin, (time, most), None)
+    }
+
+    /// The motion, with the derivative of its end where it begins with that of its beginning.
+    fn along(
+        frame: &MachineFrame<'_>,
+        begin: &Place,
+        (time, most): (f64, usize),
+        mut derivative: Option<Matrix>,
+    ) -> Option<Self> {
         let mut motion = frame.resume(begin.clone()).limited(BEYOND * time);
-        let mut derivative = Some(Matrix::identity(frame.shape.size()));
         let mut steps: Vec<(f64, Place, Passage)> = Vec::new();
         let mut events = Vec::new();
         let mut sizes = frame.sizes(begin);
@@ -105,9 +119,9 @@ impl MachineLap {
                 sizes = (sizes.0.max(x), sizes.1.max(v));
             }
             let for_ever = matches!(motion.end(), Some(End::Never | End::Stuck));
-            let own = if left <= passage.duration || for_ever {
+            let through = if left <= passage.duration || for_ever {
                 end = Some(frame.moved(&from, &passage.structure, left));
-                Some(frame.shape.transition(&passage.structure, &frame.normal, &from, left))
+                None
             } else {
                 if steps.len() >= most || motion.end().is_some() {
                     return None;
@@ -122,11 +136,18 @@ impl MachineLap {
                     end = Some(frame.moved(after, rest, part));
                     shortened.rest = Some((rest.clone(), part));
                 }
-                frame.with(|structures| {
-                    step_derivative(&frame.shape, frame.machine, &frame.normal, structures, &from, &shortened)
-                })
+                Some(shortened)
             };
-            derivative = derivative.zip(own).map(|(so_far, own)| own.times(&so_far));
+            let shape = &frame.shape;
+            derivative = derivative.and_then(|so_far| {
+                let own = match &through {
+                    None => Some(shape.transition(&passage.structure, &frame.normal, &from, left)),
+                    Some(passage) => frame.with(|structures| {
+                        step_derivative(shape, frame.machine, &frame.normal, structures, &from, passage)
+                    }),
+                };
+                Some(own?.times(&so_far))
+            });
             steps.push((now, from, passage));
         }
         frame.keep(&motion);

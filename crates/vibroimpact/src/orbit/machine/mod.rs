@@ -3,7 +3,7 @@
 //! | idea | file |
 //! |---|---|
 //! | a machine and the structures of its regimes | `frame` |
-//! | the motion over a time, with its derivative | `lap` |
+//! | the motion over a time, with its derivative where it is asked for | `lap` |
 //! | the multipliers of a cycle | `multipliers` |
 //! | whether rounding errors decide the period of one that rests | `rounding` |
 //! | the events of a cycle as unknowns | `ring` |
@@ -37,6 +37,7 @@ mod rounding;
 pub(crate) use chatters::{Chatter, Rebound};
 pub(crate) use crossing::passing;
 pub use cycle::Cycle;
+pub(crate) use cycle::Neighbours;
 pub use find::{find_machine_while, find_unreduced};
 pub(crate) use frame::MachineFrame;
 pub(crate) use lap::MachineLap;

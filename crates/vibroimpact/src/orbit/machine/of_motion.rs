@@ -50,7 +50,7 @@ impl MachineRing {
         let time = frame.time(periods, period);
         let pace = TAU / time;
         let frequency = frame.machine.parts().frequency.unwrap_or(pace);
-        let lap = MachineLap::fly(frame, begin, time)?;
+        let lap = MachineLap::replay(frame, begin, time)?;
         let free = &frame.normal.translations;
         let (mut events, mut places): (Vec<RingEvent>, Vec<Place>) = Default::default();
         for (time, event, mut place) in events_of(&lap) {

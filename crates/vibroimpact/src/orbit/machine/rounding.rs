@@ -67,7 +67,7 @@ fn neighbours_part(frame: &MachineFrame<'_>, lap: &MachineLap, (rest, most): (us
     let mut after = (0..count).map(|k| &lap.steps[(rest + k) % count]);
     let (_, from, passage) = after.find(|step| held(step) < most && step.2.duration > 0.0)?;
     let middle = frame.moved(from, &passage.structure, 0.5 * passage.duration.min(lap.time));
-    let end = MachineLap::fly(frame, &middle, lap.time)?.end;
+    let end = MachineLap::replay(frame, &middle, lap.time)?.end;
     let (size, speed) = lap.sizes;
     let n = frame.shape.n;
     for neighbour in 0..NEIGHBOURS {
@@ -78,7 +78,7 @@ fn neighbours_part(frame: &MachineFrame<'_>, lap: &MachineLap, (rest, most): (us
         }
         let mut beside = frame.shape.with_values(&middle, &values);
         frame.constrain(&mut beside)?;
-        let other = MachineLap::fly(frame, &beside, lap.time)?;
+        let other = MachineLap::replay(frame, &beside, lap.time)?;
         if frame.distance(&end, &other.end, lap.sizes) > BACK {
             return Some(true);
         }

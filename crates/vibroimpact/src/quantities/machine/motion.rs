@@ -202,7 +202,7 @@ fn steady(frame: &MachineFrame<'_>, from: &Place) -> Option<Quantities> {
     {
         return over_time(frame, cycle.strobes.first()?, cycle.period);
     }
-    let lap = MachineLap::fly(frame, from, time)?;
+    let lap = MachineLap::replay(frame, from, time)?;
     let (size, speed) = lap.sizes;
     // at rest without forcing, velocities are what is left of a motion
     let sizes = (size, speed.max(size / time));

@@ -152,7 +152,7 @@ impl Recorded<'_> {
 
     /// Whether rounding errors decide how the motion that returns to a state after a time goes on from it.
     pub(crate) fn rounding_decides(&self, step: &Step, after: f64) -> bool {
-        MachineLap::fly(&self.frame, &step.end, after).is_some_and(|lap| rounding_decides(&self.frame, &lap))
+        MachineLap::replay(&self.frame, &step.end, after).is_some_and(|lap| rounding_decides(&self.frame, &lap))
     }
 
     /// Whether the motion from `place` is captured by a cycle: it is on it to rounding, and does not leave it if it is unstable, or all its
@@ -174,7 +174,7 @@ impl Recorded<'_> {
         }
         let time = cycle.period;
         // both fly over one period of the cycle: their difference obeys its linear law up to second order
-        let (reference, moved) = (MachineLap::fly(frame, nearest, time)?, MachineLap::fly(frame, &real, time)?);
+        let (reference, moved) = (MachineLap::fly(frame, nearest, time)?, MachineLap::replay(frame, &real, time)?);
         let before = frame.apart(&real, nearest);
         let mut linear = reference.derivative.as_ref()?.apply(&before);
         // where a body moves freely, its position is no part of the motion
@@ -218,7 +218,7 @@ impl Recorded<'_> {
         }
         let mut place = real.clone();
         (0..PERIODS).take_while(|k| f64::from(*k) < periods).all(|_| {
-            let Some(lap) = MachineLap::fly(&self.frame, &place, cycle.period) else { return false };
+            let Some(lap) = MachineLap::replay(&self.frame, &place, cycle.period) else { return false };
             // the phase is set, so that sums of the period do not drift
             place = Place { phase: place.phase, ..lap.end };
             let apart = |strobe| self.frame.distance(strobe, &place, cycle.sizes);

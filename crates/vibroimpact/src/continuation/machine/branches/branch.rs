@@ -263,6 +263,10 @@ impl EventBranch {
     /// Changes the number of impacts of chatters in the signature where too much of them is left out, or too little.
     pub(super) fn adapt(&mut self) {
         let other = |tracer: &Tracer<MachineProblem>| {
+            // most cycles have no chatter
+            if Chatter::all(&tracer.problem.equations.ring).is_empty() {
+                return None;
+            }
             let (machine, mut ring) = tracer.problem.equations.split(&tracer.here.w)?;
             Chatter::adapt(&MachineFrame::new(&machine), &mut ring)?;
             let problem = with_ring(tracer, &machine, ring, tracer.here.known.cycle.as_ref()?.sizes);

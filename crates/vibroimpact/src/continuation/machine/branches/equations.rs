@@ -3,7 +3,7 @@
 use super::family::Family;
 use crate::continuation::trace::equations::Equations;
 use crate::events::StateShape;
-use crate::machine::Machine;
+use crate::machine::{Machine, RateGrid};
 use crate::orbit::{MachineFrame, MachineRing};
 use core::f64::consts::TAU;
 
@@ -17,6 +17,7 @@ pub(crate) struct MachineEquations<const N: usize = 1> {
     weights: Vec<f64>,
     /// Changes of the numbers that have the same length as a change of all phases by one radian.
     pub(crate) scales: [f64; N],
+    grid: RateGrid,
 }
 
 impl<const N: usize> MachineEquations<N> {
@@ -29,7 +30,7 @@ impl<const N: usize> MachineEquations<N> {
     ) -> Self {
         let mut weights = weights(machine, &ring, sizes);
         weights.extend(scales.map(|scale| 1.0 / (scale * scale)));
-        Self { family, ring, weights, scales }
+        Self { family, ring, weights, scales, grid: RateGrid::default() }
     }
 
     /// The vector of unknowns of a ring and values of the numbers.
@@ -76,7 +77,7 @@ impl<const N: usize> MachineEquations<N> {
         ring: &MachineRing,
         w: &[f64],
     ) -> Option<(Vec<f64>, Vec<f64>)> {
-        let rates = self.family.rates(Self::numbers(w), self.scales)?;
+        let rates = self.family.rates(Self::numbers(w), self.scales, &self.grid)?;
         let (blocks, slopes) = ring.with_numbers(frame, &rates)?;
         let length = w.len();
         let mut rows = vec![0.0; length * length];
@@ -322,7 +323,7 @@ mod tests {
                 let value = machine.number(&path).unwrap();
                 let (family, _) = Family::of_path(&machine, &path).unwrap();
                 // without springs another stiffness is not allowed
-                let Some(rates) = family.rates([value], [1.0]) else { continue };
+                let Some(rates) = family.rates([value], [1.0], &RateGrid::default()) else { continue };
                 let exact = ring.with_numbers(&frame, &rates[..1]).unwrap().1.remove(0);
                 let at = |h: f64| {
                     let machine = family.at(value + h)?;

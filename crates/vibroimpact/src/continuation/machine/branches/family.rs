@@ -1,6 +1,6 @@
 //! A machine as a function of numbers.
 
-use crate::machine::{Machine, MachineError, MachineParts, Reduction, VariedReduction};
+use crate::machine::{Machine, MachineError, MachineParts, RateGrid, Reduction, VariedReduction};
 use core::fmt;
 use std::sync::Arc;
 
@@ -83,15 +83,17 @@ impl<const N: usize> Family<N> {
         (self.machine)(values)
     }
 
-    /// The derivatives of all numbers of the machine by each of these, for numbers of these scales.
-    pub(crate) fn rates(&self, values: [f64; N], scales: [f64; N]) -> Option<Vec<MachineParts>> {
+    /// The derivatives of all numbers of the machine by each of these, for numbers of these scales; `grid` belongs to this family.
+    pub(crate) fn rates(&self, values: [f64; N], scales: [f64; N], grid: &RateGrid) -> Option<Vec<MachineParts>> {
         let by = |k: usize| {
             let at = |value: f64| {
                 let mut values = values;
                 values[k] = value;
                 self.machine(values).map(|machine| machine.parts().clone())
             };
-            MachineParts::rate(&at, (values[k], scales[k]))
+            let number = (values[k], scales[k]);
+            // with each value of the others a grid would be another one
+            if N == 1 { grid.rate(&at, number) } else { MachineParts::rate(&at, number) }
         };
         (0..N).map(by).collect()
     }

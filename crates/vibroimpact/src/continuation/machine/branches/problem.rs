@@ -1,13 +1,17 @@
 //! The problem that the tracer solves along a branch of a machine: its equations, and the test functions of its
 //! bifurcations. Whether a solution is admissible is decided by following the motion over one period.
 
+use super::closest::Leg;
 use super::equations::MachineEquations;
 use super::matched::matched;
 use super::test_functions::{TestFunction, clearance, pole_sign, rate};
 use crate::continuation::branches::{COARSE, RULES};
 use crate::continuation::trace::tracer::{Problem, Solution, StepRules};
 use crate::math::{Lu, Matrix, Multiplier, general_eigenvalues};
-use crate::orbit::{MachineBlock, MachineFrame, MachineLap, MachineRing, RingEvent, events_of, machine::Cycle};
+use crate::orbit::{
+    MachineBlock, MachineFrame, MachineLap, MachineRing, RingEvent, events_of, machine::Cycle, machine::Neighbours,
+};
+use core::cell::OnceCell;
 
 /// The equations of a branch with the range of the number, and the test functions of its events.
 #[derive(Clone, Debug)]
@@ -96,15 +100,17 @@ impl MachineProblem {
         frame: &MachineFrame<'_>,
         ring: &MachineRing,
         blocks: &[MachineBlock],
-    ) -> Option<([f64; 3], Vec<Multiplier>)> {
+    ) -> Option<([f64; 3], Neighbours)> {
         let turn = ring.monodromy(frame, blocks)?;
         let mut multipliers = general_eigenvalues(&turn)?;
         let even = if turn.rows().is_multiple_of(2) { 1.0 } else { -1.0 };
-        let torus = over_pairs(&multipliers, ring.rounding(frame, &turn));
+        let rounding = ring.rounding(frame, &turn);
+        let torus = over_pairs(&multipliers, rounding);
         let sign = pole_sign(frame.machine, ring, blocks);
         let plus_one = even * sign * shifted_determinant(&turn, -1.0);
         multipliers.truncate(frame.multipliers());
-        Some(([plus_one, sign * shifted_determinant(&turn, 1.0), torus], multipliers))
+        let minus_one = sign * shifted_determinant(&turn, 1.0);
+        Some(([plus_one, minus_one, torus], Neighbours::new(multipliers, rounding)))
     }
 
     /// What is known of a solution, and what `with` makes of its frame, ring and blocks and of the test functions of bifurcations without
@@ -119,8 +125,8 @@ impl MachineProblem {
         let blocks = ring.blocks(&frame)?;
         // every guard must fall to zero at its event
         let rising = blocks.iter().position(|block| block.late[0] >= 0.0).map(|k| (k + 1) % ring.len());
-        let (tests, multipliers) = Self::bifurcations(&frame, &ring, &blocks)?;
-        Some((with(&frame, &ring, &blocks, tests), judge(&frame, &ring, (multipliers, rising))))
+        let (tests, neighbours) = Self::bifurcations(&frame, &ring, &blocks)?;
+        Some((with(&frame, &ring, &blocks, tests), judge(&frame, &ring, (neighbours, rising))))
     }
 
     /// The component of a tangent along the number.
@@ -139,11 +145,17 @@ pub(crate) fn seen_on(lap: &MachineLap, frequency: f64) -> Vec<(f64, RingEvent)>
 pub(crate) fn judge(
     frame: &MachineFrame<'_>,
     ring: &MachineRing,
-    (multipliers, rising): (Vec<Multiplier>, Option<usize>),
+    (neighbours, rising): (Neighbours, Option<usize>),
 ) -> Judged {
-    let nothing = |multipliers| Judged { cycle: None, multipliers, seen: Vec::new(), from: 0, rising };
-    let Some((from, begin)) = ring.middle(frame) else { return nothing(multipliers) };
-    let Some(lap) = MachineLap::fly(frame, &begin, ring.period(frame)) else { return nothing(multipliers) };
+    let multipliers = neighbours.multipliers.clone();
+    let flown = || {
+        let (from, begin) = ring.middle(frame)?;
+        let lap = MachineLap::replay(frame, &begin, ring.period(frame))?;
+        Some((from, begin, lap))
+    };
+    let Some((from, begin, lap)) = flown() else {
+        return Judged { cycle: None, multipliers, seen: Vec::new(), from: 0, rising };
+    };
     let m = ring.len();
     let middle = 0.5 * (ring.theta(from) + ring.theta(from + 1));
     let wanted: Vec<(f64, &RingEvent)> =
@@ -151,16 +163,16 @@ pub(crate) fn judge(
     let seen = matched(&wanted, &seen_on(&lap, ring.frequency(frame.machine)));
     let alike = seen.len() == m && (0..m).all(|i| seen[i] == ring.events[(from + 1 + i) % m]);
     let residual = frame.distance(&begin, &lap.end, lap.sizes);
-    let cycle = (alike && rising.is_none() && residual < CLOSED).then(|| Cycle {
-        multipliers: multipliers.clone(),
-        ..Cycle::of(frame, (&begin, ring.periods), &lap, residual, vec![begin.clone()])
-    });
+    let cycle = (alike && rising.is_none() && residual < CLOSED)
+        .then(|| Cycle::beside(frame, (&begin, ring.periods), &lap, (residual, vec![begin.clone()]), neighbours));
     Judged { cycle, multipliers, seen, from, rising }
 }
 
 impl Problem for MachineProblem {
     type Known = Judged;
     type Equations = MachineEquations;
+
+    const SLOW: bool = true;
 
     fn equations(&self) -> &MachineEquations {
         &self.equations
@@ -177,13 +189,18 @@ impl Problem for MachineProblem {
     fn look(&self, w: &[f64], tangent: &[f64]) -> Option<(Vec<f64>, Judged)> {
         self.judged(w, |frame, ring, blocks, [plus_one, minus_one, torus]| {
             let m = ring.len();
+            let mut legs: Vec<OnceCell<Option<Leg<'_>>>> = Vec::new();
+            legs.resize_with(m, OnceCell::new);
             let value = |test: &TestFunction| match *test {
                 TestFunction::Pace => self.pace(tangent),
                 TestFunction::PlusOne => plus_one,
                 TestFunction::MinusOne => minus_one,
                 TestFunction::Torus => torus,
                 TestFunction::Rate(k) => rate(frame, ring, &blocks[(k + m - 1) % m], self.sizes.1),
-                TestFunction::Clearance(leg, guard) => clearance(frame, ring, (leg, guard), self.sizes),
+                TestFunction::Clearance(leg, guard) => {
+                    let leg = legs[leg].get_or_init(|| Leg::new(frame, ring, leg)).as_ref();
+                    clearance(frame, leg, guard, self.sizes)
+                }
             };
             self.tests.iter().map(value).collect()
         })
@@ -203,7 +220,9 @@ impl Problem for MachineProblem {
         let m = ring.len();
         match test {
             TestFunction::Rate(k) => Some(rate(&frame, &ring, &ring.block(&frame, (k + m - 1) % m)?, self.sizes.1)),
-            TestFunction::Clearance(leg, guard) => Some(clearance(&frame, &ring, (leg, guard), self.sizes)),
+            TestFunction::Clearance(leg, guard) => {
+                Some(clearance(&frame, Leg::new(&frame, &ring, leg).as_ref(), guard, self.sizes))
+            }
             _ => Some(Self::bifurcations(&frame, &ring, &ring.blocks(&frame)?)?.0[j - PLUS_ONE]),
         }
     }

@@ -108,7 +108,7 @@ fn with_contact(
         let (gap, _) = frame.gap(&place, *stop);
         add_scaled(&mut place.x, gap / dot(direction, direction), direction);
     }
-    let lap = MachineLap::fly(frame, &place, long * early / frequency)?;
+    let lap = MachineLap::replay(frame, &place, long * early / frequency)?;
     let gone = (1..next.len()).take_while(|k| next.theta(*k) < begin + long * early).count();
     if lap.end.states != next.events[gone].after {
         return None;

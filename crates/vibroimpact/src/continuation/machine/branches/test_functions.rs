@@ -1,7 +1,7 @@
 //! The test functions of a branch of a machine: they are continuous along the branch and change sign at an event.
 
 use super::change::Difference;
-use super::closest::closest;
+use super::closest::Leg;
 use super::rest::size;
 use crate::machine::{Machine, StopLaw};
 use crate::orbit::{MachineBlock, MachineFrame, MachineRing};
@@ -81,13 +81,8 @@ pub(crate) fn rate(frame: &MachineFrame<'_>, ring: &MachineRing, flight: &Machin
 
 /// The smallest value of a guard on a flight, relative to the largest coordinate, to the largest velocity, or to the terms of a
 /// force; infinite if it does not turn there.
-pub(crate) fn clearance(
-    frame: &MachineFrame<'_>,
-    ring: &MachineRing,
-    (leg, guard): (usize, GuardKind),
-    sizes: (f64, f64),
-) -> f64 {
-    closest(frame, ring, (leg, guard)).map_or(f64::INFINITY, |(value, place)| match guard {
+pub(crate) fn clearance(frame: &MachineFrame<'_>, leg: Option<&Leg<'_>>, guard: GuardKind, sizes: (f64, f64)) -> f64 {
+    leg.and_then(|leg| leg.closest(guard)).map_or(f64::INFINITY, |(value, place)| match guard {
         GuardKind::Gap(_) | GuardKind::Depth(_) => value / sizes.0,
         _ => value / size(frame, &place, guard, sizes.1),
     })

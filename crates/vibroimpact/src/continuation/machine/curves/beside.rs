@@ -7,8 +7,7 @@
 use super::moment::{Moment, OnFlight};
 use crate::continuation::machine::branches::{CLOSED, Judged, matched, seen_on};
 use crate::events::Place;
-use crate::math::Multiplier;
-use crate::orbit::{Chatter, MachineFrame, MachineLap, MachineRing, RingEvent, machine::Cycle};
+use crate::orbit::{Chatter, MachineFrame, MachineLap, MachineRing, RingEvent, machine::Cycle, machine::Neighbours};
 
 /// How long after and before, as a fraction of the flight to the next or from the last event.
 const BESIDE: f64 = 1e-4;
@@ -59,7 +58,7 @@ fn between(frame: &MachineFrame<'_>, ring: &MachineRing, (one, next): (&Moment, 
     if angle < SAME {
         angle += ring.angle();
     }
-    let lap = MachineLap::fly(frame, &begin, angle / frequency - after - before)?;
+    let lap = MachineLap::replay(frame, &begin, angle / frequency - after - before)?;
     let since = (ring.theta(leg) + frequency * (since + after) - base).rem_euclid(ring.angle());
     Some(Part { begin, since, lap, expected })
 }
@@ -84,7 +83,7 @@ fn through(
             let mut begin = part.begin.clone();
             begin.v.iter_mut().for_each(|v| *v += by * speed);
             frame.constrain(&mut begin)?;
-            MachineLap::fly_in(frame, &begin, (until - part.since) / ring.frequency(frame.machine), most)
+            MachineLap::replay_in(frame, &begin, (until - part.since) / ring.frequency(frame.machine), most)
         };
         let alike =
             |lap: &MachineLap| lap.steps.iter().filter(|(.., passage)| passage.rest.is_some()).count() == chatters;
@@ -104,24 +103,24 @@ pub(super) fn judge_beside(
     frame: &MachineFrame<'_>,
     ring: &MachineRing,
     moments: &[Moment],
-    (multipliers, rising): (Vec<Multiplier>, Option<usize>),
+    (neighbours, rising): (Neighbours, Option<usize>),
 ) -> Judged {
     let m = ring.len();
     let kept = others(m, moments);
     let from = kept.len().max(1) - 1;
-    let nothing = |multipliers, seen| Judged { cycle: None, multipliers, seen, from, rising };
+    let nothing = |seen| Judged { cycle: None, multipliers: neighbours.multipliers.clone(), seen, from, rising };
     // phases since the first moment
     let (first, base) = match moments.first() {
         Some(Moment::Flight(leg, phase)) => (*leg, *phase),
         Some(Moment::Events(_, last)) => (*last, ring.theta(*last)),
-        None => return nothing(multipliers, Vec::new()),
+        None => return nothing(Vec::new()),
     };
     let since = |k: usize| ring.theta(first + 1 + (k + m - first - 1) % m) - base;
     let wanted: Vec<(f64, &RingEvent)> = kept.iter().map(|k| (since(*k), &ring.events[*k])).collect();
     let mut seen = Vec::new();
     let mut flown = Vec::new();
     for (one, next) in moments.iter().zip(moments.iter().cycle().skip(1)) {
-        let Some(part) = between(frame, ring, (one, next), base) else { return nothing(multipliers, Vec::new()) };
+        let Some(part) = between(frame, ring, (one, next), base) else { return nothing(Vec::new()) };
         let events = seen_on(&part.lap, ring.frequency(frame.machine)).into_iter();
         seen.extend(events.map(|(phase, event)| (part.since + phase, event)));
         flown.push(part);
@@ -134,7 +133,7 @@ pub(super) fn judge_beside(
     let sizes = flown.iter().map(|part| part.lap.sizes).chain(middle).fold((0.0, 0.0), larger);
     let residual = flown.iter().map(|part| frame.distance(&part.expected, &part.lap.end, sizes)).fold(0.0, f64::max);
     if !(alike && rising.is_none() && residual < CLOSED) {
-        return nothing(multipliers, seen);
+        return nothing(seen);
     }
     // the cycle has all events but a touch
     let cycle = || {
@@ -147,10 +146,8 @@ pub(super) fn judge_beside(
         let lap = flown.or_else(|| (moments.len() == 1).then(|| MachineLap { time: whole, ..lap.clone() }))?;
         Some((begin, MachineLap { sizes, ..lap }))
     };
-    let Some((begin, lap)) = cycle() else { return nothing(multipliers, seen) };
-    let cycle = Cycle {
-        multipliers: multipliers.clone(),
-        ..Cycle::of(frame, (begin, ring.periods), &lap, residual, vec![begin.clone()])
-    };
-    Judged { cycle: Some(cycle), seen, ..nothing(multipliers, Vec::new()) }
+    let Some((begin, lap)) = cycle() else { return nothing(seen) };
+    let whole = (residual, vec![begin.clone()]);
+    let cycle = Cycle::beside(frame, (begin, ring.periods), &lap, whole, neighbours.clone());
+    Judged { cycle: Some(cycle), ..nothing(seen) }
 }

@@ -10,7 +10,7 @@ use crate::continuation::machine::branches::{Judged, MachineEquations, judge, ov
 use crate::continuation::trace::tracer::{Problem, Solution, StepRules};
 use crate::machine::StopLaw;
 use crate::math::{Matrix, Multiplier, dot};
-use crate::orbit::{MachineFrame, MachineRing};
+use crate::orbit::{MachineFrame, MachineRing, machine::Neighbours};
 
 /// A test function of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -236,6 +236,8 @@ impl Problem for CurveProblem {
     type Known = Judged;
     type Equations = CurveEquations;
 
+    const SLOW: bool = true;
+
     fn equations(&self) -> &CurveEquations {
         &self.equations
     }
@@ -261,11 +263,14 @@ impl Problem for CurveProblem {
             let own = moments.iter().any(|moment| moment.has(event, ring.len()));
             (!own && ring.block(&frame, k).is_none_or(|block| block.late[0] >= 0.0)).then_some(event)
         });
-        let all = at.map_or_else(Vec::new, |(_, all)| all);
+        let neighbours = at.map_or_else(
+            || Neighbours::new(Vec::new(), 0.0),
+            |(turn, all)| Neighbours::new(all, ring.rounding(&frame, &turn)),
+        );
         let judged = if moments.is_empty() {
-            judge(&frame, &ring, (all, rising))
+            judge(&frame, &ring, (neighbours, rising))
         } else {
-            judge_beside(&frame, &ring, &moments, (all, rising))
+            judge_beside(&frame, &ring, &moments, (neighbours, rising))
         };
         Some((values?, judged))
     }
