@@ -176,3 +176,64 @@ fn derivative(at: &dyn Fn(f64) -> Option<Vec<f64>>, (value, scale): (f64, f64)) 
     }
     None
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::cell::Cell;
+
+    /// A machine of which some numbers are functions of one, and their derivatives.
+    fn parts(stiffness: f64, damping: f64, gap: f64) -> MachineParts {
+        MachineParts::new(["body"]).with_mass(0, 1.0).with_link(&[1.0], stiffness, damping).with_rigid_stop(
+            "stop",
+            &[1.0],
+            gap,
+            0.5,
+        )
+    }
+
+    fn numbers(parts: &MachineParts) -> [f64; 3] {
+        [parts.stiffness[(0, 0)], parts.damping[(0, 0)], parts.stops[0].gap]
+    }
+
+    /// Against derivatives in closed form, and how many machines that takes along a branch.
+    #[test]
+    fn few_machines_serve_all_values() {
+        let made = Cell::new(0);
+        let at = |x: f64| {
+            made.set(made.get() + 1);
+            Some(parts(1.0 / (1.0 + x), libm::sqrt(x), libm::sin(x)))
+        };
+        let grid = RateGrid::default();
+        for k in 0..200 {
+            let x = 0.5 + 1e-3 * f64::from(k);
+            let rates = numbers(&grid.rate(&at, (x, 0.05)).unwrap());
+            let exact = [-1.0 / ((1.0 + x) * (1.0 + x)), 0.5 / libm::sqrt(x), libm::cos(x)];
+            for (rate, exact) in rates.iter().zip(exact) {
+                assert!((rate - exact).abs() < 2e-12, "{x}: {rate} is not {exact}");
+            }
+            // nothing depends on what was asked for before
+            assert_eq!(rates, numbers(&RateGrid::default().rate(&at, (x, 0.05)).unwrap()));
+        }
+        made.set(0);
+        let _ = (0..200).map(|k| grid.rate(&at, (0.5 + 1e-3 * f64::from(k), 0.05))).count();
+        assert!(made.get() < 100, "{} machines", made.get());
+    }
+
+    /// Where a number bends, and beside the end of the allowed values.
+    #[test]
+    fn bends_and_ends() {
+        let grid = RateGrid::default();
+        let bent = |x: f64| Some(parts(1.0 + (x - 0.5).abs(), 0.0, 0.0));
+        for (x, slope) in [(0.501, 1.0), (0.499, -1.0)] {
+            let rates = numbers(&grid.rate(&bent, (x, 0.1)).unwrap());
+            assert!((rates[0] - slope).abs() < 1e-9, "{x}: {rates:?}");
+        }
+        let grid = RateGrid::default();
+        let ends = |x: f64| (x <= 0.5).then(|| parts(x * x, 0.0, 0.0));
+        for x in [0.5, 0.4999] {
+            let rates = numbers(&grid.rate(&ends, (x, 0.1)).unwrap());
+            assert!((rates[0] - 2.0 * x).abs() < 1e-9, "{x}: {rates:?}");
+        }
+    }
+}
