@@ -129,24 +129,28 @@ impl MachineSource {
     /// # Errors
     /// [`MachineFileError`] if the path leads to no number, or if the file describes no machine.
     pub fn with(&self, path: &str, value: f64) -> Result<Self, MachineFileError> {
-        let mut changed = self.clone();
-        if let Some(place) = changed.parameters.get_mut(path) {
+        self.with_all([(path, value)])
+    }
+
+    /// The same in place.
+    fn set(&mut self, path: &str, value: f64) -> Result<(), MachineFileError> {
+        if let Some(place) = self.parameters.get_mut(path) {
             *place = value;
-            return Ok(changed);
+            return Ok(());
         }
-        let listed = listed_path(&changed.machine, path);
+        let listed = listed_path(&self.machine, path);
         let mut found = false;
-        for (_, number) in numbers(&mut changed.machine).into_iter().filter(|(known, _)| *known == listed) {
+        for (_, number) in numbers(&mut self.machine).into_iter().filter(|(known, _)| *known == listed) {
             *number = NumberText::Value(value);
             found = true;
         }
         if found {
-            changed.set.0.retain(|(known, _)| *known != listed);
-            return Ok(changed);
+            self.set.0.retain(|(known, _)| *known != listed);
+            return Ok(());
         }
         self.parts()?.set(path, value).map_err(|error| self.explained(error.into()))?;
-        changed.set.set(&listed, value);
-        Ok(changed)
+        self.set.set(&listed, value);
+        Ok(())
     }
 
     /// The same machine with other numbers at several paths, one after another.
@@ -157,7 +161,9 @@ impl MachineSource {
         &self,
         changes: impl IntoIterator<Item = (&'a str, f64)>,
     ) -> Result<Self, MachineFileError> {
-        changes.into_iter().try_fold(self.clone(), |source, (path, value)| source.with(path, value))
+        let mut changed = self.clone();
+        changes.into_iter().try_for_each(|(path, value)| changed.set(path, value))?;
+        Ok(changed)
     }
 
     /// The paths of all numbers: parameters, those of the file, and those of its expansion that are not zero.

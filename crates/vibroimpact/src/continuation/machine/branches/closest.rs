@@ -118,8 +118,9 @@ const STEPS: u32 = 30;
 /// A time between three times at which a guard rises, with its rate there, if it falls at all three.
 fn rise(three: &[(f64, f64)], rate: impl Fn(f64) -> f64) -> Option<(f64, f64)> {
     let &[(mut low, a), (_, b), (mut high, c)] = three else { return None };
-    let bent = 2.0 * b - a - c;
-    if a >= 0.0 || b >= 0.0 || c >= 0.0 || b < a || b < c || b + (c - a) * (c - a) / (8.0 * bent) < CLOSE * b {
+    let peak = b + (c - a) * (c - a) / (8.0 * (2.0 * b - a - c));
+    // a steady rate has no peak
+    if a >= 0.0 || b >= 0.0 || c >= 0.0 || b < a || b < c || peak.is_nan() || peak < CLOSE * b {
         return None;
     }
     for _ in 0..STEPS {

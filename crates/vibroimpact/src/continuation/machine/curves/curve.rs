@@ -225,9 +225,14 @@ impl EventCurve {
         let end = if upper { *range.end() } else { *range.start() };
         let column = at.w.len() - 2 + which;
         let row = unit(at.w.len(), column, 1.0);
-        let (mut w, _) = correct(&problem.equations, &at.w, &row, end)?;
+        // the solution is there within the resolution of zeros, and rounding errors of its unknowns can be larger than what ends a correction
+        let located = || ((at.w[column] - end).abs() <= EDGE * end.abs().max(f64::MIN_POSITIVE)).then(|| at.w.clone());
+        let mut w = correct(&problem.equations, &at.w, &row, end).map(|(w, _)| w).or_else(located)?;
         // the correction leaves it within rounding
         w[column] = end;
         self.tracer.solution(w)
     }
 }
+
+/// A number is at the end of its range if it differs from it by less, relative to it.
+const EDGE: f64 = 1e-8;
