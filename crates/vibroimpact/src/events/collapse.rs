@@ -27,6 +27,8 @@ const SLOW: f64 = 1e-8;
 /// errors of the gaps could change what happens.
 const CLOSED: f64 = 512.0;
 const CROWDED: f64 = 65_536.0;
+/// A sum with joints is taken when a body beside it goes no more than so many rounding errors of the motion in the time that is left.
+const STILL: f64 = 4096.0;
 /// Other forces can slow a joint too, so its friction alone need not bring it to rest, but for this part.
 const BY_FRICTION: f64 = 4.0;
 /// Stops on which a structure cannot come to rest at once keep rates above this part of their terms.
@@ -95,6 +97,10 @@ impl Motion<'_> {
         if !self.are_close(&struck, CLOSED) {
             return false;
         }
+        // how far a body beside the round can go in the time that is left
+        if struck.len() < round.places.len() && round.left * round.speed > STILL * f64::EPSILON * self.way(&struck) {
+            return false;
+        }
         if round.in_turn || struck.len() < round.places.len() {
             return true;
         }
@@ -111,6 +117,13 @@ impl Motion<'_> {
         let free = self.structures.get(self.machine, &self.normal, &self.place.states);
         let fastest = free.map_or(0.0, |free| free.fastest());
         self.instants.longest().max(if fastest > 0.0 { 1.0 / fastest } else { 0.0 })
+    }
+
+    /// The size of these gaps and of the motion.
+    fn way(&mut self, stops: &[usize]) -> f64 {
+        let turns = self.place.turns(&self.normal);
+        let way = self.time_scale() * self.largest_impact;
+        stops.iter().map(|j| self.place.gap(&self.normal, &turns, *j).2).fold(way, f64::max)
     }
 
     /// Whether these gaps are so small that closing them moves nothing.
