@@ -162,8 +162,10 @@ impl<'a> Tally<'a> {
         // each impulse is 1 + eps times the speed of arrival
         self.sums[Sum::Speeds] += impulse / (1.0 + eps);
         self.sums[Sum::Impacts] = f64::INFINITY;
-        // just before the mass comes to rest the force presses it with a
-        self.extremes.acceleration = self.extremes.acceleration.max(a);
+        // the force presses the mass until it rests, and right after a rebound the damper too; over so short a time both change
+        // steadily, so the largest acceleration is at one of the ends
+        let end = sin * (1.0 - 2.0 * sin_half * sin_half) + 2.0 * cos * sin_half * cos_half - stop.gap;
+        self.extremes.acceleration = self.extremes.acceleration.max(a + 2.0 * zeta * rebound).max(end);
         self.hold(side, duration);
     }
 

@@ -198,6 +198,13 @@ pub(crate) fn ended(osc: &Oscillator, end: Option<End>, limits: SearchLimits, im
         Some(End::Stuck(side)) => Verdict::Stuck(side),
         Some(End::NoneFor(time)) => {
             let periods = time / osc.period();
+            // where the steady motion reaches a stop, an impact comes in the end, however long the search was: without damping this is known
+            // at resonance, where it grows without bound
+            let amplitude = osc.free_amplitude();
+            let reaches = osc.stops().any(|(_, stop)| stop.gap < amplitude);
+            if reaches && (osc.damping() > 0.0 || amplitude.is_infinite()) {
+                return undecided(UndecidedCause::Search { periods }, impacts);
+            }
             // less than the horizon: the budget of steps ended the search before it, and nothing is claimed
             if time >= 0.999 * limits.horizon(osc) {
                 Verdict::NoImpact(NoImpact::ForPeriods(periods.floor()))

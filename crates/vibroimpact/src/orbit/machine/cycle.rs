@@ -151,7 +151,9 @@ impl Cycle {
             self.free.remove_in_machine(&mut q);
             q
         };
-        let own = self.events.iter().flat_map(|event| untranslated(event.q.clone()));
+        // at all its events a motion can be at 0, as one that rests on a stop there
+        let places = self.events.iter().map(|event| &event.q).chain([&self.state.q]);
+        let own = places.flat_map(|q| untranslated(q.clone()));
         // a coordinate that can be translated has the size of its way in a radian of the forcing, or of the period
         let radian =
             if self.free.is_empty() { 0.0 } else { self.period / (TAU * f64::from(self.label.periods.max(1))) };

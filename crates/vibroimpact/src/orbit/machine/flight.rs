@@ -3,7 +3,7 @@
 
 use super::frame::MachineFrame;
 use super::ring::{MachineBlock, MachineRing, Push, RingEvent};
-use crate::arc::MachineFlight;
+use crate::arc::{MachineFlight, Recovery};
 use crate::events::{ByNumber, EventLaw, LinearEvent, LinearGuard, Place, standing_back};
 use crate::machine::{MachineParts, StopLaw};
 use crate::math::{Matrix, add_scaled, dot};
@@ -130,7 +130,12 @@ impl MachineRing {
         }
         let structure = frame.structure(&from.states)?;
         let flown = from.unguarded_flight(&frame.normal, structure.clone());
-        let before = frame.moved_in(&flown, &from, time);
+        let mut before = frame.moved_in(&flown, &from, time);
+        for (now, begun) in before.surfaces.iter_mut().zip(&from.surfaces) {
+            // one that comes back in the limit only stands back by nothing
+            *now =
+                now.or(begun.filter(|surface| surface.offset == 0.0).map(|surface| Recovery { size: 0.0, ..surface }));
+        }
         let of = |kind: GuardKind| structure.guards.iter().position(|guard| guard.kind == kind);
         let guards: Vec<usize> = event.guards().map(of).collect::<Option<_>>()?;
         let restitution = |j: usize| match frame.machine.stops()[j].law {

@@ -4,6 +4,7 @@ use super::chatters::Chatter;
 use super::frame::MachineFrame;
 use super::lap::MachineLap;
 use super::ring::{MachineRing, RingEvent};
+use crate::arc::Recovery;
 use crate::events::Place;
 use crate::regime::GuardKind;
 use core::f64::consts::TAU;
@@ -30,7 +31,19 @@ pub(crate) fn events_of(lap: &MachineLap) -> Vec<(f64, RingEvent, Place)> {
         // where the lap is not closed, what is at its end is not what was at its beginning
         let stands = |place: &Place| place.surfaces[stop].is_some();
         let closes = lap.steps.first().is_some_and(|(_, begin, _)| stands(begin) == stands(&lap.end));
-        let before = (1..m).take_while(|i| *i <= k || closes).map(|i| (k + m - i) % m);
+        let before: Vec<usize> = (1..m).take_while(|i| *i <= k || closes).map(|i| (k + m - i) % m).collect();
+        // without an offset a surface comes back in the limit only: it stands back by nothing where its size is below all numbers, so
+        // that cycles do not differ on both sides of a number at which nothing happens
+        let opened = before.iter().position(|i| events[*i].2.surfaces[stop].is_some());
+        if let Some(last) = opened
+            && let Some(surface) = events[before[last]].2.surfaces[stop].filter(|surface| surface.offset == 0.0)
+        {
+            for i in &before[..last] {
+                events[*i].1.back[stop] = true;
+                events[*i].2.surfaces[stop] = Some(Recovery { size: 0.0, ..surface });
+            }
+            continue;
+        }
         for i in before {
             // between the opening and the closing there can be others, at which it is on its holder or still stands back
             events[i].1.back[stop] = false;

@@ -31,8 +31,8 @@ use std::sync::Arc;
 /// Two parts of a cycle that differ by less are the same.
 const ALIKE: f64 = 3e-4;
 
-/// The least depth at an opening by force, for contacts that vanish, and the size below which a surface has come back.
-const LEAST: (f64, f64) = (1e-12, 1e-300);
+/// The least depth at an opening by force, for contacts that vanish.
+const LEAST: f64 = 1e-12;
 
 /// An event of a signature.
 #[derive(Clone, Debug, PartialEq)]
@@ -294,7 +294,7 @@ impl MachineRing {
         let m = self.len();
         for k in (0..m).filter(|k| self.ends_by_force(*k, stop)).collect::<Vec<_>>() {
             let place = self.place(k);
-            let depth = (-frame.gap(&place, stop).0).max(LEAST.0);
+            let depth = (-frame.gap(&place, stop).0).max(LEAST);
             // the surface is taken along through the events after it, until its stop closes again
             let surface = standing_back(&frame.machine.stops()[stop].law, depth)?;
             let later = |time: f64| Recovery { size: surface.size * decay(surface.rate * time).0, ..surface };
@@ -305,7 +305,7 @@ impl MachineRing {
                 time += self.time(i, frame.machine);
             }
             // it stands back as long as its size is above the offset; otherwise it has come back before the stop closes
-            if later(time).size > surface.offset.max(LEAST.1) {
+            if surface.offset == 0.0 || later(time).size > surface.offset {
                 for (i, surface) in stands {
                     self.events[i].back[stop] = true;
                     self.places[i].surfaces[stop] = Some(surface);

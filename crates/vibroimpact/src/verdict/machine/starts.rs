@@ -8,14 +8,24 @@ use crate::regime::Normal;
 use core::f64::consts::TAU;
 
 /// The sizes of coordinates and velocities of the box: for each coordinate the largest of the static deflection under all
-/// forces, the gaps along it and what the forcing moves in a quarter of its period.
+/// forces, friction among them where a belt moves, the gaps along it and what the forcing moves in a quarter of its period. A belt takes
+/// bodies along with its velocity.
 fn sizes(machine: &Machine) -> (Vec<f64>, Vec<f64>) {
     let parts = machine.parts();
     let n = machine.n();
     let rate = parts.frequency.unwrap_or(1.0);
     let mut reach = vec![0.0_f64; n];
+    // the friction of a joint and the velocity of its belt, along each coordinate
+    let belts = || machine.joints().iter().filter(|joint| joint.belt != 0.0);
+    let dragged =
+        |i: usize| belts().map(|joint| joint.limit.max(joint.sliding) * joint.direction[i].abs()).sum::<f64>();
+    let taken = |i: usize| {
+        let own = belts().filter(|joint| joint.direction[i] != 0.0);
+        own.map(|joint| (joint.belt / joint.direction[i]).abs()).fold(0.0_f64, f64::max)
+    };
     for (i, reach) in reach.iter_mut().enumerate() {
         let push: f64 = parts.constant[i].abs()
+            + dragged(i)
             + parts.forces.iter().map(|force| force.cos[i].abs() + force.sin[i].abs()).sum::<f64>();
         let spring = parts.stiffness[(i, i)].max(parts.mass[(i, i)] * rate * rate);
         *reach = 2.0 * push / spring.max(f64::MIN_POSITIVE);
@@ -31,7 +41,7 @@ fn sizes(machine: &Machine) -> (Vec<f64>, Vec<f64>) {
     let x: Vec<f64> = reach.iter().map(|reach| reach.max(size).max(0.5 * most).max(SAME)).collect();
     let v = (0..n).map(|i| {
         let own = (parts.stiffness[(i, i)] / parts.mass[(i, i)]).max(0.0).sqrt();
-        x[i] * 0.5 * (own + rate).min(4.0 * rate)
+        (x[i] * 0.5 * (own + rate).min(4.0 * rate)).max(2.0 * taken(i))
     });
     let v = v.collect();
     (x, v)
