@@ -8,7 +8,7 @@ use super::equations::MachineEquations;
 use super::explained::{explained, same_events};
 use super::family::Family;
 use super::meeting::meeting;
-use super::point::SolutionPoint;
+use super::point::{SolutionPoint, without_speed};
 use super::problem::{Judged, MachineProblem, MachineSolution};
 use super::rest_for_ever::rest_for_ever;
 use super::step::{NEARBY, off_circle};
@@ -138,23 +138,17 @@ impl Iterator for UnreducedBranch {
 }
 
 impl EventBranch {
-    /// The stop of the only impact of a cycle, if this impact disappears; of several, as of equal parts or on two sides, that of the
-    /// first. `zeros` are the functions that are zero there, if they are known.
-    fn lost(&self, at: &MachineSolution, found: &Difference, zeros: &[TestFunction]) -> Option<usize> {
+    /// The stop of the only impact of a cycle, if this impact disappears; of several that have no speed there, as of equal parts or on
+    /// both sides, that of the first.
+    fn lost(&self, at: &MachineSolution, found: &Difference) -> Option<usize> {
         let Difference::Disappears { at: event, stop } = *found else { return None };
-        let ring = &self.tracer.problem.equations.ring;
-        let mut gone: Vec<usize> = zeros
-            .iter()
-            .filter_map(|zero| match zero.difference(ring) {
-                Some(Difference::Disappears { at, .. }) => Some(at),
-                _ => None,
-            })
-            .chain([event])
-            .collect();
-        gone.sort_unstable();
-        gone.dedup();
+        let (machine, ring) = self.tracer.problem.equations.split(&at.w)?;
+        let cycle = at.known.cycle.as_ref()?;
+        let mut gone = without_speed(&machine, &ring, cycle.sizes.1);
+        gone.retain(|k| *k != event);
+        gone.push(event);
         let impacts = gone.iter().map(|k| ring.events.get(*k).map_or(0, |event| event.pushed.len().max(1)));
-        let closings = at.known.cycle.as_ref()?.counts.iter().sum::<u32>();
+        let closings = cycle.counts.iter().sum::<u32>();
         // a contact has two events, its beginning and its end
         (closings as usize == impacts.sum::<usize>() && ring.len() <= 2 * gone.len()).then_some(stop)
     }
@@ -220,16 +214,13 @@ impl EventBranch {
         let rate = zeros.iter().find(|zero| matches!(zero, TestFunction::Rate(_)));
         let zero = rate.or(zeros.first()).and_then(|zero| zero.difference(ring));
         let found = zero.unwrap_or(Difference::Other { place: None });
-        if let Some(stop) = self.lost(at, &found, zeros) {
-            return self.end(at, BranchEvent::LossOfContact { stop, detail: None });
-        }
         let next = through_grazing(&self.tracer, at, zeros, &self.path.options);
         self.pass(at, &found, next);
     }
 
     /// Reports the change of the events at `at` and goes on with the events beyond: with `next`, if that is known.
     pub(super) fn pass(&mut self, at: &MachineSolution, found: &Difference, next: Option<Tracer<MachineProblem>>) {
-        if let Some(stop) = self.lost(at, found, &[]) {
+        if let Some(stop) = self.lost(at, found) {
             return self.end(at, BranchEvent::LossOfContact { stop, detail: None });
         }
         let of_rest = matches!(found, Difference::Rest { joint: false, .. } | Difference::Other { .. });

@@ -28,24 +28,29 @@ impl BranchEvent {
     /// the largest velocity.
     pub(super) fn on(mut self, machine: &Machine, ring: &MachineRing, speed: f64) -> Self {
         let Self::Grazing { stop, also: also @ None, appears: false, .. } = &mut self else { return self };
-        let normal = Normal::new(machine);
-        // the last impacts of a chatter are slow wherever the branch is
-        let slows = |chatter: &Chatter| chatter.impacts(ring).into_iter().chain([chatter.rest]);
-        let bounces: Vec<usize> = Chatter::all(ring).iter().flat_map(slows).collect();
-        let slow = |k: usize| {
-            let GuardKind::Gap(other) = ring.events[k].guard else { return None };
-            if bounces.contains(&k) {
-                return None;
-            }
-            let share = match machine.stops()[other].law {
-                StopLaw::Rigid { restitution } => restitution,
-                StopLaw::Compliant { .. } => 1.0,
-            };
-            let place = ring.place(k);
-            let after = place.gap(&normal, &place.turns(&normal), other).1.abs();
-            (other != *stop && share > 0.0 && after <= share * WITHOUT_SPEED * speed).then_some(other)
-        };
-        *also = (0..ring.len()).find_map(slow);
+        let stops = without_speed(machine, ring, speed)
+            .into_iter()
+            .map(|k| ring.events[k].guard.place(ring.events[k].back.len()));
+        *also = stops.into_iter().find(|other| other != stop);
         self
     }
+}
+
+/// The closings of a ring that have no speed, where `speed` is the largest velocity.
+pub(super) fn without_speed(machine: &Machine, ring: &MachineRing, speed: f64) -> Vec<usize> {
+    let normal = Normal::new(machine);
+    // the last impacts of a chatter are slow wherever the branch is
+    let slows = |chatter: &Chatter| chatter.impacts(ring).into_iter().chain([chatter.rest]);
+    let bounces: Vec<usize> = Chatter::all(ring).iter().flat_map(slows).collect();
+    let slow = |k: &usize| {
+        let GuardKind::Gap(stop) = ring.events[*k].guard else { return false };
+        let share = match machine.stops()[stop].law {
+            StopLaw::Rigid { restitution } => restitution,
+            StopLaw::Compliant { .. } => 1.0,
+        };
+        let place = ring.place(*k);
+        let after = place.gap(&normal, &place.turns(&normal), stop).1.abs();
+        !bounces.contains(k) && share > 0.0 && after <= share * WITHOUT_SPEED * speed
+    };
+    (0..ring.len()).filter(slow).collect()
 }
