@@ -27,7 +27,6 @@
 //! readers and grey print.
 
 mod axis;
-mod base64;
 mod canvas;
 mod colour;
 mod colour_bar;

@@ -1,8 +1,9 @@
 //! A grid of class indices as one image: basins of attraction with one pixel for each cell.
 
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
 use resvg::tiny_skia::{IntSize, Pixmap};
 
-use crate::base64;
 use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
 use crate::error::{MAX_SIDE, PlotError};
@@ -98,7 +99,7 @@ impl Raster {
             N(c.min(d)),
             N(width),
             N(height),
-            base64::encode(&png)
+            BASE64_STANDARD.encode(&png)
         ));
     }
 
