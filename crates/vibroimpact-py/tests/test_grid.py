@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-import xarray as xr
 
 import vibroimpact as vi
 from vibroimpact import _core, _store
@@ -75,29 +74,6 @@ axes = [{ vary = "gap", over = "0:1:5" }]
     (tmp_path / "broken.toml").write_text("version = ")
     with pytest.raises(vi.QuestionError, match="broken.toml`: the plan does not read: line 1, column 11"):
         vi.Plan.read(tmp_path / "broken.toml")
-
-
-def test_threads_change_nothing_and_progress_is_told(s: vi.Oscillator) -> None:
-    seen: list[tuple[int, int]] = []
-    ds = vi.basin(s, x="-4:0.75:200", v="-4:4:150", threads=1, tile=50)
-    other = vi.basin(s, x="-4:0.75:200", v="-4:4:150", threads=3, tile=50, progress=lambda *of: seen.append(of))
-    xr.testing.assert_identical(ds, other)
-    assert seen[-1] == (30_000, 30_000)
-
-
-def test_refined_points_agree_where_they_were_computed(s: vi.Oscillator) -> None:
-    full = vi.basin(s, x="-4:0.75:97", v="-4:4:97")
-    coarse = vi.basin(s, x="-4:0.75:97", v="-4:4:97", refine=4)
-    own = coarse["computed"] == 1
-    assert 0.1 < own.mean() < 0.9 and (coarse["label"] == full["label"]).where(own, True).all()
-
-
-def test_exponents_over_a_parameter(u: vi.Oscillator, tmp_path: Path) -> None:
-    plan = vi.Plan.lyapunov(u, {"gap": "2.8:3:3"}, impacts=5000)
-    vi.run(plan, tmp_path / "chaos.zarr")
-    ds = vi.open(tmp_path / "chaos.zarr")
-    alone = vi.lyapunov(u.replace(gap=ds["gap"].values[1]), impacts=5000)
-    assert ds["exponent"].values[1].tolist() == [of.value for of in alone.exponents]
 
 
 def test_the_command_says_the_same(vibro: Callable[..., Any], tmp_path: Path, s: vi.Oscillator) -> None:

@@ -158,13 +158,6 @@ def test_a14_a_motion_goes_on_from_each_event():
         motion.state(20)
 
 
-def test_a14_a_settled_state_is_whole():
-    found = PAD.settle().motion
-    assert set((found.state or {})["contacts"]["pad"]) <= {"state", "surface"}
-    again = PAD.starting(found.state or {}).settle()
-    assert again.motion.label == found.label
-
-
 def test_a14_wrong_contacts_are_refused():
     with pytest.raises(vi.QuestionError, match="known names are pad"):
         PAD.starting({"contacts": {"pat": {"state": "open"}}})

@@ -153,12 +153,6 @@ def test_wrong_types(s: vi.Oscillator) -> None:
             ask()
 
 
-def test_progress_counts_starts(s: vi.Oscillator) -> None:
-    seen: list[tuple[int, int]] = []
-    vi.settle_many(s, starts={"v": np.linspace(-1, 1, 5000)}, progress=lambda done, total: seen.append((done, total)))
-    assert seen[-1] == (5000, 5000)
-
-
 def test_points_are_drawn_over_the_first_two_that_vary() -> None:
     ds = vi.settle_many(SAMPLES)
     ax = ds.vibro.plot()

@@ -1,20 +1,8 @@
-"""Margins: distances are compared with closed forms and with branches."""
+"""Margins: their attributes and their figure."""
 
 import pytest
 
 import vibroimpact as vi
-
-
-def test_the_distance_is_that_of_the_branch() -> None:
-    osc = vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5)
-    found = vi.margins(osc, label="1/1")
-    assert list(found.parameters) == ["inverse_beta", "gap", "restitution", "damping"]
-    branch = vi.branch(osc, "gap", 3.0, label="1/1")
-    up = found.parameters["gap"].up
-    assert up.event is not None and up.event["kind"] == branch.events[0].kind == "flip"
-    assert up.at is not None and abs(up.at - branch.events[0].parameter) < 1e-11
-    assert up.distance == up.at - 1.5 and up.relative == up.distance / 1.5
-    assert found.parameters["damping"].down.event is None and found.parameters["damping"].down.limit == 0
 
 
 def test_the_bars_end_at_the_events() -> None:

@@ -1,8 +1,5 @@
 """Points drawn from a box, and studies of points in stores: the same results as in memory."""
 
-import io
-import json
-import subprocess
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -85,35 +82,6 @@ def test_a_store_of_arrays(s: vi.Oscillator, tmp_path: Path) -> None:
     np.testing.assert_array_equal(stored["label"].values, memory["label"].values)
     assert sorted(stored["cycle_label"].values.tolist()) == sorted(memory["cycle_label"].values.tolist())
     assert vi.Plan(stored.attrs["plan"]).to_dict()["task"]["basin"]["points"]["listed"][0]["vary"] == "x"
-
-
-def test_the_command_runs_and_exports_it(
-    vibro: "Callable[..., subprocess.CompletedProcess[str]]", tmp_path: Path
-) -> None:
-    pd = pytest.importorskip("pandas")
-    file, place = tmp_path / "plan.toml", tmp_path / "study.zarr"
-    file.write_text(
-        """version = 1
-system = { restitution = 0.5 }
-tile = 16
-[task.basin]
-fields = ["impact_speed_max"]
-[task.basin.points.drawn]
-rule = "sobol"
-count = 64
-over = [{ vary = "inverse_beta", from = 1, to = 2 }, { vary = "gap", from = 0, to = 2 }]
-"""
-    )
-    done = vibro("run", file, "--store", place)
-    assert done.returncode == 0, done.stderr
-    assert json.loads(vibro("status", place, "--json").stdout)["complete"] is True
-    table = pd.read_csv(io.StringIO(vibro("export", place, "--csv", "-").stdout))
-    points = vi.sample("sobol", 64, {"inverse_beta": (1, 2), "gap": (0, 2)})
-    memory = vi.settle_many(points, over={"restitution": 0.5}, fields=["impact_speed_max"])
-    assert table["label"].astype(str).tolist() == memory.vibro.labels().values.tolist()
-    np.testing.assert_array_equal(table["gap"], points["gap"])
-    ds = vi.settle_many(points, over={"restitution": 0.5}, fields=["impact_speed_max"], store=place, tile=16)
-    assert np.array_equal(ds["label"].values, memory["label"].values)
 
 
 def test_the_workers_of_a_cluster_fill_it(tmp_path: Path) -> None:

@@ -1,29 +1,11 @@
 """Motions event by event, and their waveforms."""
 
-import math
-
 import numpy as np
 
 import vibroimpact as vi
 
 
-def test_waveform_obeys_the_equation_and_the_stop(n: vi.Oscillator) -> None:
-    sim = vi.simulate(n, periods=6)
-    wave = sim.waveform(n.period / 400)
-    t, x, v = wave.time, wave.q[:, 0], wave.qdot[:, 0]
-    # the time of each leg is a sum, so two legs may differ by a rounding error
-    assert t[0] == 0 and t[-1] == sim.end_time and np.all(np.diff(t) > -1e-13) and x.max() <= n.gap + 1e-14
-    # central differences in free flight, between events
-    h = np.diff(t)
-    flies = (x[:-2] < n.gap) | (x[1:-1] < n.gap) | (x[2:] < n.gap)
-    smooth = (h[:-1] > 1e-6) & (np.abs(h[:-1] - h[1:]) < 1e-9) & flies
-    force = np.sin(n.beta * t[1:-1]) - x[1:-1]
-    acceleration = (v[2:] - v[:-2]) / (t[2:] - t[:-2])
-    assert np.count_nonzero(smooth) > 1000
-    assert np.max(np.abs(acceleration - force)[smooth]) < 1e-3
-
-
-def test_chatter_sticking_and_release_are_events() -> None:
+def test_chatter_sticking_and_ends() -> None:
     osc = vi.Oscillator(inverse_beta=1.11, gap=-0.5, restitution=0.5)
     sim = vi.simulate(osc, periods=3)
     kinds = sim.kind.tolist()
@@ -32,17 +14,8 @@ def test_chatter_sticking_and_release_are_events() -> None:
     assert kinds[0] == "stick" and not sim.chatter[0] and sim.error[0] == 0
     stick = kinds.index("stick", 1)
     assert sim.chatter[stick] and 0 < sim.error[stick] < 1e-9 and sim.speed[stick] == 0
-    # released where the force no longer presses the mass: sin theta = gap, with falling magnitude
-    release = kinds.index("release")
-    assert math.isclose(math.sin(sim.phase[release]), osc.gap, abs_tol=1e-14)
-
-
-def test_ends_that_are_no_limit() -> None:
-    stuck = vi.simulate(vi.Oscillator(beta=0.9, gap=-1.5, restitution=0.5))
-    assert stuck.end == "stuck"
     free = vi.simulate(vi.Oscillator(beta=0.5, gap=40, restitution=0.5))
-    assert len(free) == 0 and free.end == "no_more_impacts" and free.horizon is not None
-    assert free.horizon["why"] == "amplitude" and free.horizon["periods"] is None
+    assert len(free) == 0 and free.end == "no_more_impacts" and free.horizon["why"] == "amplitude"
 
 
 def test_a_waveform_has_gaps_contacts_and_forces() -> None:
