@@ -3,10 +3,11 @@
 use crate::columns::column;
 use crate::door::{self, Watch};
 use crate::error::Trouble;
-use crate::plan::{points, read};
+use crate::plan::{points, read, text};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use std::collections::BTreeSet;
+use vibroimpact_report::json::basin::Measures;
 use vibroimpact_study::basin::measures;
 use vibroimpact_study::study::{Cells, Sheet, StudyTable, in_memory, label_of, meaning_of};
 use vibroimpact_study::{Column, Field, Study};
@@ -127,44 +128,10 @@ pub(crate) fn labels_of(codes: Vec<i32>) -> Vec<String> {
     codes.into_iter().map(|code| label_of(code).unwrap_or_default()).collect()
 }
 
-/// Measures of the basins in a plane.
-#[derive(IntoPyObject)]
-pub(crate) struct MeasureFields {
-    box_side: usize,
-    entropy: f64,
-    boundary_entropy: Option<f64>,
-    /// Value and standard error.
-    uncertainty_exponent: Option<(f64, f64)>,
-    merging: Option<MergingFields>,
-}
-
-/// The comparison of the boundaries of at least three basins.
-#[derive(IntoPyObject)]
-pub(crate) struct MergingFields {
-    motions: usize,
-    radius: usize,
-    limit: usize,
-    common: f64,
-    wada: bool,
-}
-
-/// The measures of a plane of numbers of motions, with `width` of them in each row.
+/// The measures of a plane of numbers of motions, with `width` of them in each row, as JSON.
 #[pyfunction]
-pub(crate) fn basin_measures(cells: PyReadonlyArray1<'_, i64>, width: usize) -> MeasureFields {
-    let found = measures(&cells.as_array().to_vec(), width);
-    MeasureFields {
-        box_side: found.side,
-        entropy: found.entropy,
-        boundary_entropy: found.boundary_entropy,
-        uncertainty_exponent: found.uncertainty.map(|of| (of.value, of.error)),
-        merging: found.merging.map(|of| MergingFields {
-            motions: of.motions,
-            radius: of.radius,
-            limit: of.limit,
-            common: of.common,
-            wada: of.wada(),
-        }),
-    }
+pub(crate) fn basin_measures(cells: PyReadonlyArray1<'_, i64>, width: usize) -> Result<String, Trouble> {
+    text(&Measures::from(measures(&cells.as_array().to_vec(), width)))
 }
 
 /// The values of a span, exactly the numbers that are used in the computation.

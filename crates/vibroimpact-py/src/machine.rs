@@ -4,6 +4,7 @@ use crate::columns::{column, grid};
 use crate::door::{self, Watch};
 use crate::error::Trouble;
 use crate::events::{EventFields, Events, code};
+use crate::plan::parsed;
 use crate::section::{Section, States, columns, whole_periods};
 use crate::simulate::{checked_step, simulate_plan};
 use numpy::{PyArray1, PyArray2};
@@ -77,12 +78,7 @@ impl MachineFile {
 
     /// The same with the start of a state, which is JSON.
     fn starting(&self, state: &str) -> Result<Self, Trouble> {
-        let state: StartText = serde_json::from_str(state).map_err(|error| {
-            // JSON is written by this package, so a position in it does not help the user
-            let said = error.to_string();
-            Trouble::question(said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said).to_owned())
-        })?;
-        checked(MachineSource { start: Some(state), ..self.0.clone() })
+        checked(MachineSource { start: Some(parsed::<StartText>(state)?), ..self.0.clone() })
     }
 
     fn number(&self, path: &str) -> Result<f64, Trouble> {

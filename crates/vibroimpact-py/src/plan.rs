@@ -5,6 +5,7 @@ use crate::oscillator::OscillatorFile;
 use crate::simulate::{StartArgument, start_plan};
 use pyo3::prelude::*;
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 use std::collections::HashMap;
 use vibroimpact_study::{
     Axis, BodyNumber, Coordinate, Parameter, Plan, PlanError, StartPlan, SystemPlan, Task, Variable,
@@ -22,6 +23,14 @@ pub(crate) fn read(text: &str) -> Result<Plan, Trouble> {
     let plan = plan.canonical()?;
     plan.check()?;
     Ok(plan)
+}
+
+/// A value from JSON that this package has written, so a position in it does not help the user.
+pub(crate) fn parsed<T: DeserializeOwned>(text: &str) -> Result<T, Trouble> {
+    serde_json::from_str(text).map_err(|error| {
+        let said = error.to_string();
+        Trouble::question(said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said))
+    })
 }
 
 /// A plan, or another value, as JSON.

@@ -4,6 +4,7 @@ use crate::door::{self, Watch};
 use crate::error::Trouble;
 use crate::grid::{Variable, arrays};
 use crate::oscillator::OscillatorFile;
+use crate::plan::parsed;
 use crate::simulate::{StartArgument, start_plan};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -13,7 +14,7 @@ use vibroimpact_study::{
 };
 
 /// The column with this name.
-pub(crate) fn column(name: &str, values: Vec<f64>) -> Result<ListedColumn, Trouble> {
+fn column(name: &str, values: Vec<f64>) -> Result<ListedColumn, Trouble> {
     let vary = Coordinate::named(name).ok_or_else(|| {
         let parameters = vibroimpact_study::parameter_names().join(", ");
         Trouble::question(format!(
@@ -23,21 +24,29 @@ pub(crate) fn column(name: &str, values: Vec<f64>) -> Result<ListedColumn, Troub
     Ok(ListedColumn { vary, values })
 }
 
+/// The columns that vary, and the numbers of all other parameters and coordinates of starts.
+pub(crate) type Over<'py> = Vec<(String, PyReadonlyArray1<'py, f64>)>;
+
+/// The points of columns.
+pub(crate) fn listed(over: &Over<'_>) -> Result<PointsPlan, Trouble> {
+    let columns = over.iter().map(|(name, values)| column(name, values.as_array().to_vec()));
+    Ok(PointsPlan::Listed(columns.collect::<Result<_, _>>()?))
+}
+
 /// Settles the motion at each point. `over` are the columns that vary; other numbers are those of `osc` and `start`.
 #[pyfunction]
 #[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn settle_points<'py>(
     py: Python<'py>,
     osc: OscillatorFile,
-    over: Vec<(String, PyReadonlyArray1<'py, f64>)>,
+    over: Over<'py>,
     start: StartArgument,
     options: (Option<u32>, Vec<String>, bool),
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> Result<Vec<Variable<'py>>, Trouble> {
     let (impacts, fields, transient) = options;
-    let columns = over.iter().map(|(name, values)| column(name, values.as_array().to_vec()));
-    let points = PointsPlan::Listed(columns.collect::<Result<_, _>>()?);
+    let points = listed(&over)?;
     let quantity = |name: &String| Quantity::from_name(name).ok_or_else(|| Trouble::question(unknown_quantity(name)));
     let fields = fields.iter().map(quantity).collect::<Result<_, _>>()?;
     let total = points.count();
@@ -51,11 +60,7 @@ pub(crate) fn settle_points<'py>(
 /// The columns of points that are drawn from a box, which are written as in a plan.
 #[pyfunction]
 pub(crate) fn drawn_points<'py>(py: Python<'py>, drawn: &str) -> Result<Vec<Bound<'py, PyArray1<f64>>>, Trouble> {
-    let drawn: DrawnPoints<String> = serde_json::from_str(drawn).map_err(|error| {
-        // JSON is written by this package, so a position in it does not help the user
-        let said = error.to_string();
-        Trouble::question(said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said).to_owned())
-    })?;
+    let drawn: DrawnPoints<String> = parsed(drawn)?;
     drawn.check()?;
     let points = PointsPlan::Drawn(drawn);
     let count = usize::try_from(points.count()).unwrap_or(usize::MAX);

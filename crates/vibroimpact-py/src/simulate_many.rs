@@ -3,10 +3,10 @@
 use crate::door::{self, Watch};
 use crate::error::Trouble;
 use crate::oscillator::OscillatorFile;
-use crate::points::column;
+use crate::points::{Over, listed};
 use crate::section::{Section, States, columns, whole_periods};
 use crate::simulate::{StartArgument, simulate_plan, start_plan};
-use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use vibroimpact::motion::{Level, Strobes, states_at};
 use vibroimpact::system::phase::wrap;
@@ -14,9 +14,6 @@ use vibroimpact::{Oscillator, Start};
 use vibroimpact_study::{
     Control, END_REASONS, EventColumns, PlanError, PointsPlan, StartPlan, SystemPlan, real_numbers,
 };
-
-/// The columns that vary, and the numbers of all other parameters and coordinates of starts.
-type Over<'py> = Vec<(String, PyReadonlyArray1<'py, f64>)>;
 
 /// The points, the system and the start of a question.
 struct Asked {
@@ -27,9 +24,7 @@ struct Asked {
 
 impl Asked {
     fn new(osc: OscillatorFile, over: &Over<'_>, start: StartArgument) -> Result<Self, Trouble> {
-        let columns = over.iter().map(|(name, values)| column(name, values.as_array().to_vec()));
-        let points = PointsPlan::Listed(columns.collect::<Result<_, _>>()?);
-        Ok(Self { points, system: osc.plan, start: start_plan(start) })
+        Ok(Self { points: listed(over)?, system: osc.plan, start: start_plan(start) })
     }
 
     /// The results of `work` at all points.

@@ -8,6 +8,7 @@ import xarray as xr
 from vibroimpact import _core
 from vibroimpact._core import QuestionError
 from vibroimpact._datasets import codes_of, figure_of
+from vibroimpact._json import read
 from vibroimpact._stated import here, restored
 from vibroimpact._oscillator import Units
 from vibroimpact._paint import paint
@@ -85,7 +86,9 @@ class VibroAccessor:
             # two cycles may have one label
             pairs = np.stack([codes, ds["cycle"].values.reshape(-1)])
             codes = np.unique(pairs, axis=1, return_inverse=True)[1].reshape(-1)
-        return dict(_core.basin_measures(codes.astype(np.int64), label.shape[1]))
+        found = read(_core.basin_measures(codes.astype(np.int64), label.shape[1]))
+        exponent = found["uncertainty_exponent"]
+        return {"merging": None, **found, "uncertainty_exponent": exponent and (exponent["value"], exponent["error"])}
 
     def si(self, units: Units | None = None) -> xr.Dataset:
         """The same Dataset with all lengths and times, in values and coordinates, converted to metres and seconds.

@@ -7,6 +7,7 @@ use crate::answer::{AnswerOf, BasinOf, Told};
 use schemars::JsonSchema;
 use serde::Serialize;
 use vibroimpact_study::Basin;
+use vibroimpact_study::basin::BasinMeasures;
 
 /// The answer to `vibro basin`. Coordinates on no axis are those of the start.
 #[derive(JsonSchema, Serialize)]
@@ -25,6 +26,15 @@ pub(super) struct BasinAnswer<'a> {
 /// Measures of the basins in a plane.
 #[derive(JsonSchema, Serialize)]
 pub struct MeasureFields {
+    #[serde(flatten)]
+    measures: Measures,
+    #[serde(flatten)]
+    certainty: Certainty,
+}
+
+/// Those that do not depend on the number of starts.
+#[derive(JsonSchema, Serialize)]
+pub struct Measures {
     /// Side of the boxes of the entropies, in starts.
     box_side: usize,
     entropy: f64,
@@ -33,8 +43,6 @@ pub struct MeasureFields {
     /// The comparison of the boundaries of at least three basins.
     #[serde(skip_serializing_if = "Option::is_none")]
     merging: Option<MergingFields>,
-    #[serde(flatten)]
-    certainty: Certainty,
 }
 
 #[derive(JsonSchema, Serialize)]
@@ -53,24 +61,29 @@ struct MergingFields {
     wada: bool,
 }
 
-impl MeasureFields {
-    pub(crate) fn of(found: &Basin) -> Option<Self> {
-        let measures = found.measures()?;
-        let total = found.cells.len() as u64;
-        Some(Self {
-            box_side: measures.side,
-            entropy: measures.entropy,
-            boundary_entropy: measures.boundary_entropy,
-            uncertainty_exponent: measures.uncertainty.map(|of| ExponentFields { value: of.value, error: of.error }),
-            merging: measures.merging.map(|of| MergingFields {
+impl From<BasinMeasures> for Measures {
+    fn from(found: BasinMeasures) -> Self {
+        Self {
+            box_side: found.side,
+            entropy: found.entropy,
+            boundary_entropy: found.boundary_entropy,
+            uncertainty_exponent: found.uncertainty.map(|of| ExponentFields { value: of.value, error: of.error }),
+            merging: found.merging.map(|of| MergingFields {
                 motions: of.motions,
                 radius: of.radius,
                 limit: of.limit,
                 common: of.common,
                 wada: of.wada(),
             }),
-            certainty: Certainty::of(found.by_count().into_iter().map(|m| found.motions[m].count), total),
-        })
+        }
+    }
+}
+
+impl MeasureFields {
+    pub(crate) fn of(found: &Basin) -> Option<Self> {
+        let counts = found.by_count().into_iter().map(|m| found.motions[m].count);
+        let certainty = Certainty::of(counts, found.cells.len() as u64);
+        Some(Self { measures: found.measures()?.into(), certainty })
     }
 }
 
