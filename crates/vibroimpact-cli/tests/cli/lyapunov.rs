@@ -59,17 +59,6 @@ fn where_there_is_nothing_to_measure() {
     assert_eq!(why(&touches), ["undefined", "undefined"]);
 }
 
-/// S in physical units: exponents per second differ, exponents per period are the same.
-#[test]
-fn a_machine_in_physical_units() {
-    let machine = "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --omega-rad-per-s 25 --gap-m 0.01 --restitution 0.5";
-    let si = json(&format!("lyapunov {machine} --units si --impacts 1000"));
-    let plain = json(&format!("lyapunov {machine} --impacts 1000"));
-    let exponent = |answer: &Value, key: &str| measured(&answer[key][0]).0;
-    assert!((exponent(&si, "exponents") - 20.0 * exponent(&plain, "exponents")).abs() < 1e-12);
-    assert_eq!(exponent(&si, "exponents_per_period"), exponent(&plain, "exponents_per_period"));
-}
-
 #[test]
 fn both_sections_as_a_table() {
     let table = printed(&format!("lyapunov {S} --impacts 1000 --section - --points 4"));

@@ -163,17 +163,3 @@ fn starts_of_diagrams() {
         assert!(told["sweeps"][0]["points"].as_u64() > Some(0), "{told}");
     }
 }
-
-/// The starts of a machine of one coordinate lead to the motions to which those of the oscillator lead.
-#[test]
-fn a_basin_of_one_coordinate_is_that_of_the_oscillator() {
-    let folder = Folder::new();
-    let plane = [("x", "-3:0.7:9"), ("v", "-2:2:7")];
-    folder.printed(&format!("basin {} --x {} --v {} --csv osc.csv", crate::S, plane[0].1, plane[1].1));
-    folder.write("one.toml", ONE);
-    let line = format!("basin --machine one.toml --axis q.x={} --axis qdot.x={}", plane[0].1, plane[1].1);
-    folder.printed(&format!("{line} --store one.zarr --csv one.csv"));
-    let (one, osc) = (folder.read("one.csv"), folder.read("osc.csv"));
-    assert_eq!(rows(&one)[1..], rows(&osc)[1..]);
-    has(&osc, &["2/1", "1/1"]);
-}

@@ -61,17 +61,10 @@ fn a_sample_is_resumed_and_divided() {
     has(&folder.printed("verify cube.zarr --sample 3"), &["12"]);
 }
 
-/// One start is that of `settle`, and a body in SI units has the same motions as its oscillator.
+/// A body in SI units has the same motions as its oscillator.
 #[test]
-fn the_same_motions_as_settle_and_in_other_units() {
+fn the_same_motions_in_other_units() {
     let folder = Folder::new();
-    folder.write("starts.csv", "x,v\n-1,0.5\n0.25,-2\n0.75,0\n");
-    let system = "--inverse-beta 1.3 --gap 0.75 --restitution 0.5";
-    let table = folder.printed(&format!("settle-many --points starts.csv {system} --phase 1 --csv -"));
-    for row in rows(&table).iter().skip(1) {
-        let settled = folder.json(&format!("settle {system} --x={} --v={} --phase 1", row[0], row[1]));
-        assert_eq!(settled["motion"]["label"], row[2], "{row:?}");
-    }
     // F/k = 5 mm, omega_n = 20 /s
     let machine = "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --frequency-hz 2.5 --restitution 0.6";
     let beta = 2.5 * std::f64::consts::TAU / 20.0;

@@ -1,6 +1,6 @@
 //! Stability in three words, rests that name their stops, and how far chaos was seen.
 
-use crate::{Folder, has, json, list, number, printed, rows, texts};
+use crate::{Folder, has, list, number, printed, rows, texts};
 use std::collections::BTreeSet;
 
 /// An elastic ball between a wall and a moving wall.
@@ -79,27 +79,6 @@ fn an_elliptic_family_is_neutral() {
     let figure = folder.read("branch.svg");
     assert!(column(&folder.read("branch.csv"), "stability").iter().all(|word| word == "neutral"));
     assert!(figure.contains(">neutral<") && !figure.contains(">stable<"));
-}
-
-/// 42.5: the same for an oscillator without losses.
-#[test]
-fn an_elastic_oscillator_is_neutral_or_unstable() {
-    let system = "--inverse-beta 1.3 --gap 0.75 --restitution 1";
-    let mut words = Vec::new();
-    for label in ["1/1", "2/1", "1/2", "2/2"] {
-        let orbits = json(&format!("orbit {system} --label {label}"));
-        for orbit in list(&orbits["orbits"]) {
-            assert_eq!(orbit["stable"], false);
-            words.push(orbit["stability"].as_str().expect("a text").to_owned());
-        }
-    }
-    assert!(words.iter().any(|word| word == "neutral") && words.iter().all(|word| word != "stable"), "{words:?}");
-    let free = json("settle --inverse-beta 1.3 --gap 20 --restitution 0.5");
-    assert_eq!((&free["motion"]["stability"], &free["motion"]["stable"]), (&"neutral".into(), &false.into()));
-    let damped = json("settle --inverse-beta 1.3 --gap 20 --restitution 0.5 --damping 0.1");
-    assert_eq!((&damped["motion"]["stability"], &damped["motion"]["stable"]), (&"stable".into(), &true.into()));
-    let stuck = json("settle --inverse-beta 0.5 --gap -3 --restitution 0.5");
-    assert_eq!((&stuck["motion"]["stop"], &stuck["motion"]["stops"]), (&"upper".into(), &serde_json::json!(["upper"])));
 }
 
 /// 42.8: rests on different stops were one motion.

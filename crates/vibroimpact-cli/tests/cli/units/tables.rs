@@ -34,20 +34,6 @@ fn f08_every_command_converts_its_table() {
     }
 }
 
-/// Random machines, the commands whose tables come from motions at one point or at given starts.
-#[test]
-fn random_machines_convert_their_tables() {
-    for machine in Machine::random().take(6) {
-        for Command { name, flags, without, .. } in COMMANDS.iter().filter(|c| AT_A_POINT.contains(&c.name)) {
-            let (si, plain) = machine.lines(name, flags, without);
-            same_table(&machine, name, &printed(&(plain + " --csv -")), &printed(&(si + " --csv -")));
-        }
-    }
-}
-
-/// Of the other commands values on an axis may differ in the last digit, and so may chaotic motions there.
-const AT_A_POINT: [&str; 4] = ["simulate", "settle", "attractors", "basin"];
-
 /// A store keeps its units: the table exported from it is that of the command without a store.
 #[test]
 fn stores_keep_their_units() {
