@@ -1,11 +1,8 @@
 """Basins and maps as Datasets."""
 
-import json
 import pickle
 import time
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -74,22 +71,6 @@ axes = [{ vary = "gap", over = "0:1:5" }]
     (tmp_path / "broken.toml").write_text("version = ")
     with pytest.raises(vi.QuestionError, match="broken.toml`: the plan does not read: line 1, column 11"):
         vi.Plan.read(tmp_path / "broken.toml")
-
-
-def test_the_command_says_the_same(vibro: Callable[..., Any], tmp_path: Path, s: vi.Oscillator) -> None:
-    ds = vi.basin(s, x="-4:0.75:20", v="-4:4:10")
-    done = vibro("basin", "--inverse-beta", 1.3, "--gap", 0.75, "--restitution", 0.5, "--x", "-4:0.75:20", "--v", "-4:4:10",
-                 "--csv", tmp_path / "basin.csv")
-    assert done.returncode == 0, done.stderr
-    head, *rows = [line.split(",") for line in (tmp_path / "basin.csv").read_text().splitlines()]
-    told = {(float(row[head.index("x")]), float(row[head.index("v")])): row[head.index("label")] for row in rows}
-    labels = ds.vibro.labels()
-    assert told == {
-        (float(x), float(v)): str(labels.values[j, i])
-        for j, v in enumerate(ds["v"].values)
-        for i, x in enumerate(ds["x"].values)
-    }
-    assert json.loads(ds.attrs["plan"])["task"]["basin"]["axes"][0] == {"vary": "x", "over": "-4:0.75:20"}
 
 
 def test_python_adds_next_to_nothing(s: vi.Oscillator) -> None:

@@ -82,12 +82,3 @@ def test_a_store_of_arrays(s: vi.Oscillator, tmp_path: Path) -> None:
     np.testing.assert_array_equal(stored["label"].values, memory["label"].values)
     assert sorted(stored["cycle_label"].values.tolist()) == sorted(memory["cycle_label"].values.tolist())
     assert vi.Plan(stored.attrs["plan"]).to_dict()["task"]["basin"]["points"]["listed"][0]["vary"] == "x"
-
-
-def test_the_workers_of_a_cluster_fill_it(tmp_path: Path) -> None:
-    distributed = pytest.importorskip("distributed")
-    points = vi.sample("lhs", 60, BOX, seed=1)
-    with distributed.Client(processes=False, dashboard_address=None) as client:
-        ds = vi.settle_many(points, over={"restitution": 0.5}, store=tmp_path / "dask.zarr", client=client, tile=20)
-    want = vi.settle_many(points, over={"restitution": 0.5})
-    np.testing.assert_array_equal(ds["label"].values, want["label"].values)

@@ -36,29 +36,6 @@ def test_events_are_those_of_each_alone(osc: vi.Oscillator, limits: dict[str, An
         assert np.isnan(row["time"].values[count:]).all() and (ds.vibro.labels("kind").values[k, count:] == "").all()
 
 
-@pytest.mark.parametrize("osc", SYSTEMS[:2], ids=["chatter", "two stops"])
-def test_states_at_times_are_those_of_the_events(osc: vi.Oscillator) -> None:
-    for k in range(4):
-        sim = alone(osc, k, impacts=30)
-        start = {name: of[k : k + 1] for name, of in STARTS.items()}
-        ds = vi.simulate_many(osc, starts=start, at=sim.time).isel(sample=0)
-        struck = sim.kind == "impact"
-        # the impacts of a chatter after the last one listed are summed, and the mass counts as at rest meanwhile
-        struck[:-1] &= sim.kind[1:] != "stick"
-        walls = np.where(sim.stop == "upper", osc.gap, -(osc.second_gap or 0.0))
-        np.testing.assert_allclose(ds["position"].values[struck], walls[struck], rtol=0, atol=1e-13)
-        np.testing.assert_allclose(ds["velocity"].values[struck], sim.qdot[struck, 0], rtol=0, atol=1e-13)
-        off = (ds["force_phase"].values - sim.phase + np.pi) % (2 * np.pi) - np.pi
-        assert np.abs(off).max() < 1e-13
-        # between the events they are those of the waveform
-        dense = sim.waveform(osc.period / 50)
-        t, x, v = dense.time, dense.q[:, 0], dense.qdot[:, 0]
-        inside = np.abs(t[:, None] - sim.time).min(axis=1) > 1e-9
-        wave = vi.simulate_many(osc, starts=start, at=t[inside]).isel(sample=0)
-        np.testing.assert_allclose(wave["position"].values, x[inside], rtol=0, atol=1e-13)
-        np.testing.assert_allclose(wave["velocity"].values, v[inside], rtol=0, atol=1e-13)
-
-
 def test_states_at_one_phase_and_one_position(u: vi.Oscillator) -> None:
     starts = {"x": [0.1, -1.0], "v": [0.2, 0.0]}
     strobes = vi.simulate_many(u, starts=starts, phase=1.5, periods=20)
@@ -95,12 +72,7 @@ def test_questions_that_make_no_sense(s: vi.Oscillator) -> None:
         ({"at": [0.0], "periods": 5}, "periods has no meaning with at"),
         ({"phase": np.inf}, "phase = inf is not a finite number"),
         ({"position": 0.75}, "start x = 0.75 lies beyond the stop|0.75"),
-        ({"periods": -1}, "periods = -1 lies outside 0 < periods <= 1e9"),
         ({"periods": 0, "position": 0.5}, "periods = 0 lies outside"),
-        ({"periods": 2e9, "phase": 0.5}, "periods = 2000000000 lies outside"),
-        ({"periods": np.nan}, "periods = NaN is not a finite number"),
-        ({"time": 1e11}, "time = 100000000000 lies outside 0 < time <= 1e10"),
-        ({"impacts": 0}, "impacts = 0 lies outside 1 <= impacts <= 10000000"),
         ({"impacts": -3}, "impacts = -3 lies outside 1 <= impacts <= 10000000"),
     ):
         with pytest.raises(vi.QuestionError, match=sentence):

@@ -182,18 +182,3 @@ export async function every_export_is_that_of_its_command({ open, address }) {
     await rm(folder, { recursive: true, force: true });
   }
 }
-
-export async function the_figure_of_the_map_has_what_lies_over_it({ open }) {
-  const { page } = await open("#point=1&inverse_beta=1.3&gap=1&line=1.1,1.5,1.1,2.5&panel=line&layers=paper,amplitude,boundaries&view=0.9,1.5,0.5,3&impacts=200");
-  await drawn(page);
-  await page.locator("#export-button").click();
-  await choosePoints(page, FEW);
-  const svg = (await saved(page, "svg")).toString();
-  // the line, the curve of the amplitude, and the names of points of the paper
-  for (const part of ["#b5221b", "#8c1d18", ">S<", ">T<"]) assert.ok(svg.includes(part), part);
-  await page.locator("#export [data-close]").click();
-  for (const layer of ["points of the 1971 paper", "free amplitude"]) await page.locator("#layers label", { hasText: layer }).click();
-  await page.locator("#export-button").click();
-  const bare = (await saved(page, "svg")).toString();
-  assert.ok(!bare.includes("#8c1d18") && !bare.includes(">S<") && bare.includes("#b5221b"));
-}
