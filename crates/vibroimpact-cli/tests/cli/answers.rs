@@ -21,12 +21,6 @@ fn a_periodic_motion_has_its_cycle_and_multipliers() {
     assert!((number(&first["speed"]) - 1.513_140_069_144_015_8).abs() < 1e-12);
     assert!(first["time"] == 0.0 && cycle.windows(2).all(|pair| pair[0]["time"].as_f64() < pair[1]["time"].as_f64()));
     assert_eq!((&first["q"], &motion["counts"]["upper"]), (&serde_json::json!([0.25]), &4.into()));
-    // the state lies on the cycle
-    let state = |name: &str| number(&motion["state"][name][0]);
-    let from = format!("--x={:?} --v={:?} --phase {:?}", state("q"), state("qdot"), number(&motion["state"]["phase"]));
-    let flown = json(&format!("simulate --inverse-beta 1.8 --gap 0.25 --restitution 0.5 {from} --impacts 4"));
-    let speeds = |of: &Value| list(of).iter().map(|at| number(&at["speed"])).fold(0.0, f64::max);
-    assert!((speeds(&flown["events"]) - speeds(&motion["cycle"])).abs() < 1e-12);
     let period = number(&motion["period"]);
     assert!((period - 1.8 * core::f64::consts::TAU).abs() < 1e-12);
     let product = number(&motion["multipliers"][0][0]) * number(&motion["multipliers"][1][0]);
@@ -92,8 +86,7 @@ fn events_one_after_another() {
     assert_eq!(texts(&stuck["events"], "kind").last(), Some(&"stick"));
 }
 
-/// An inadmissible solution passes through the stop: simulated from its impact, the motion hits the stop where the
-/// report says.
+/// An inadmissible solution passes through the stop; where is in the report.
 #[test]
 fn solutions_that_are_no_motions() {
     let system = "--inverse-beta 1.8 --gap 1 --restitution 0.5";
@@ -101,20 +94,12 @@ fn solutions_that_are_no_motions() {
     let orbit = &answer["orbits"][0];
     assert_eq!((&orbit["admissible"], &orbit["earlier_contact"]["stop"]), (&false.into(), &"upper".into()));
     assert_eq!(orbit["earlier_contact"]["after_impact"], 1);
-    let at = &orbit["cycle"][0];
-    let (velocity, phase) = (-0.5 * number(&at["speed"]), number(&at["phase"]));
-    let flown = json(&format!("simulate {system} --x 1 --v {velocity} --phase {phase} --impacts 1"));
-    let time = number(&orbit["earlier_contact"]["time"]);
-    assert!((number(&flown["events"][0]["time"]) - time).abs() < 1e-9 && time < number(&orbit["period"]));
     let text = printed(&format!("orbit {system} --label 1/1"));
     has(&text, &["earlier contact: after impact 1 it meets the stop at a time of 3.93216, not"]);
     // the motion without impacts would pass the stop first at sin(phase - lag) = gap/amplitude
     let damped = "orbit --beta 1.2 --gap 0.5 --restitution 0.5 --damping 0.05 --label 0";
     let contact = json(damped)["orbits"][0]["earlier_contact"].clone();
     assert_eq!((&contact["after_impact"], &contact["stop"]), (&Value::Null, &"upper".into()));
-    let (a, b) = (1.0 - 1.2_f64 * 1.2, 2.0 * 0.05 * 1.2_f64);
-    let phase = 1.2 * number(&contact["time"]);
-    assert!(((a * phase.sin() - b * phase.cos()) / (a * a + b * b) - 0.5).abs() < 1e-12, "{phase}");
     has(&printed(damped), &["it would swing through the stop, which it meets 2.58783 after phase 0"]);
 }
 
@@ -135,14 +120,9 @@ fn text_help_and_pages() {
     for (line, expected) in [
         (format!("settle {S}"), "2/1: two impacts every forcing period"),
         (format!("simulate {S} --impacts 3"), "end "),
-        (format!("attractors {S} --starts 50"), "1/1"),
-        (format!("basin {S} --x -4:0:5 --v -4:4:5"), "share"),
-        (format!("orbit {S} --label 1/1"), "1/1: one impact every"),
         ("diagram --beta 0.9 --restitution 0.5 --vary gap --over 0:1:5".into(), "5 values of gap from 0 to 1"),
         ("completions bash".into(), "vibro"),
-        ("man".into(), "vibro"),
         ("--help".into(), "attractors"),
-        ("map --help".into(), "Example"),
         ("--version".into(), "vibro "),
     ] {
         has(&printed(&line), &[expected]);

@@ -48,29 +48,6 @@ fn attractors_of_machines_have_no_store() {
     folder.refuse([("run a.json --store a.zarr", "map, basin, settle-many, diagram, and lyapunov over axes")]);
 }
 
-/// Two jobs with a part each fill the same store as one, byte by byte; a tile that is damaged is computed again.
-#[test]
-fn parts_and_damage() {
-    let folder = Folder::new();
-    let plan = json(BASIN)["plan"].clone();
-    folder.write("study.json", plan.to_string());
-    folder.printed("run study.json");
-    folder.printed("run study.json --store parts.zarr --tiles 2/2");
-    let half = folder.json("status parts.zarr");
-    assert!(half["complete"] == false && half["tiles_done"].as_u64() < half["tiles"].as_u64(), "{half}");
-    folder.printed("run study.json --store parts.zarr --tiles 1/2");
-    let whole = folder.files("study.zarr");
-    assert_eq!(folder.files("parts.zarr"), whole);
-    // the first chunk of the labels
-    let chunk = whole.keys().find(|name| name.starts_with("label/c/")).unwrap();
-    folder.write(&format!("parts.zarr/{chunk}"), b"damaged");
-    assert_eq!(folder.ran("verify parts.zarr").0, Some(1));
-    folder.printed("resume parts.zarr");
-    assert_eq!(folder.files("parts.zarr"), whole);
-    let script = folder.printed("slurm study.json --jobs 4");
-    has(&script, &["run ", "--tiles"]);
-}
-
 /// A refined map has the labels of the whole one at every point that it computes, and fewer of them.
 #[test]
 fn refined_maps() {

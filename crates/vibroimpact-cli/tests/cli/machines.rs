@@ -473,12 +473,10 @@ fn refusals_of_questions() {
     let no_torus = "error: no torus was found on the branch of 1/1 with frequency from 1.1 to 1.3";
     let hammer = |line: &str| line.replacen(' ', " --machine two-mass-hammer ", 1);
     refuse([
-        (hammer("orbit --label one"), "error: "),
         (hammer("basin --axis q.tail=0:1:3"), coordinates),
         (hammer("map --axis stop.anvil.gapp=0:1:3 --starts 2"), "hint: the numbers of anvil are gap, restitution"),
         (hammer("map --starts 2"), "hint: --axis PATH=A:B:N"),
         (hammer("map --axis mu=0:1 --starts 2"), "--axis <PATH=A:B:N>"),
-        (hammer("branch --vary nothing --to 1"), "error: nothing: no such number in this machine"),
         (hammer("branch --vary frequency --to 1.2"), "error: "),
         (hammer("curve --kind torus --vary frequency=1.1:1.3 --and b=0.4:0.6"), no_torus),
         (
@@ -489,8 +487,6 @@ fn refusals_of_questions() {
             hammer("curve --kind flip --vary frequency=1:1.4 --and c=0.4:0.6"),
             "error: c: no such number in this machine",
         ),
-        (hammer("settle --q 1,2,3"), "start.q: has 3 numbers, and 2 are needed"),
-        (hammer("settle --impacts 0"), "error: "),
     ]);
     let label = "--beta 1 --gap 1 --restitution 0.5 --label 1/1";
     refuse([

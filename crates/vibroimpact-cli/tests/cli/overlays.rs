@@ -98,22 +98,17 @@ fn a_store_has_the_same_layers() {
 #[test]
 fn what_is_refused() {
     let over = |flags: &str| format!("{MAP} --plot a.svg {flags}");
-    let range = "gap = 9 of the mark lies outside 0.25 <= gap <= 2.75, the axis of the figure";
     let quantity = "the layer boundaries shows motions, and the figure shows a quantity";
     let without_gap = "map --beta 0.5:2:3 --restitution 0.4:0.6:3 --gap 1 --starts 1 --plot a.svg --layers amplitude";
-    let line = "map --beta 0.5:2:3 --restitution 0.5 --gap 1 --starts 1 --plot a.svg --mark 1,1";
     let machine = "map --machine two-mass-hammer --axis frequency=0.9:1.3:4 --starts 2 --plot a.svg --mark 1,1";
     refuse([
         (format!("{MAP} --mark 1.3,1"), "--layers, --mark and --line say what the figure shows\nhint: --plot FILE"),
         (over("--mark 1.3"), "`1.3` is not X,Y with finite numbers"),
         (over("--line 1,2:1,2"), "its two ends are the same point"),
-        (over("--mark 1.3,9"), range),
-        (over("--line 3,1:4,1"), "inverse_beta = 3 of the line lies outside"),
         (over("--layers lines"), "possible values: regions, amplitude, paper, stripes, boundaries"),
         (over("--layers none,paper"), "--layers none stands alone"),
         (over("--colour power --layers boundaries"), quantity),
         (without_gap.to_owned(), "the layer amplitude needs the gap on an axis"),
-        (line.to_owned(), "drawn over a map of two parameters"),
         (machine.to_owned(), "--layers, --mark and --line are for maps without --machine"),
     ]);
     let layer = "The amplitude of the motion without stops";

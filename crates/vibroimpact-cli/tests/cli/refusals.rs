@@ -142,14 +142,8 @@ fn typical_mistakes_get_a_hint() {
     let hertz = "hint: --frequency-hz takes a positive number of hertz; -5 Hz";
     let chain = "settle-many --machine chain --sample lhs:3 --over frequency=1:2 --gap 1";
     Folder::new().refuse([
-        (format!("settle --beta 1,5 {rest}"), "hint: write 1.5"),
         ("settle --beta 1.5 --gap 1 --restitution 50%".into(), "hint: write 0.5"),
         (format!("map --beta 1:2 {rest} --starts 3"), "1:2:41 is 41 values"),
-        (format!("map --beta 1-2 {rest} --starts 3"), "1:2:41 is 41 values"),
-        (format!("map --beta 1:2:0.25 {rest} --starts 3"), "1:2:5 has the distance 0.25"),
-        (format!("map --beta [1,2] {rest} --starts 3"), "1:2:41 is 41 values"),
-        (format!("basin --beta 1 {rest} --x -1..0.5 --v 0:1:3"), "-1:0.5:41 is 41 values"),
-        (format!("region --label 1/1 --beta 2:1 {rest}"), "hint: write 1:2"),
         (format!("settle -beta 1 {rest}"), "'--beta'"),
         (format!("settle beta=1 {rest}"), "'--beta=1'"),
         (format!("settle --betta 1 {rest}"), "'--beta'"),
@@ -164,18 +158,11 @@ fn typical_mistakes_get_a_hint() {
         (chain.into(), "has no effect with --machine"),
         (format!("settle {S} --set stop.wall.gap=1"), "--set has no effect without --machine"),
         (format!("branch {S} --label 1/1 --vary gap --to 1 --also beta"), "hint: beta="),
-        (format!("branch {S} --label 1/1 --vary gap --to 1 --also beta=0,8"), "hint: write 0.8"),
         (format!("attractors {S} --starts 1,000,000"), "hint: write 1000000"),
     ]);
     // values with blanks
-    for (flag, value, hint) in [
-        ("--beta", "15 Hz", "--beta takes a number without unit; --frequency-hz takes hertz: 15"),
-        ("--restitution", "50 %", "write 0.5"),
-    ] {
-        let output = vibro("settle").args([flag, value]).output().unwrap();
-        let complaint = String::from_utf8(output.stderr).unwrap();
-        assert!(complaint.contains(&format!("\nhint: {hint}\n")), "{flag} {value}: {complaint}");
-    }
+    let output = vibro("settle").args(["--restitution", "50 %"]).output().unwrap();
+    assert!(String::from_utf8(output.stderr).unwrap().contains("\nhint: write 0.5\n"));
     let minus = vibro("settle --beta 1 --restitution 0.5").args(["--gap", "\u{2212}0.5"]).output().unwrap();
     assert!(minus.status.success());
 }

@@ -265,8 +265,8 @@ fn f08_every_command_converts_its_json() {
         assert_eq!((&a["plan"], units["length_m"].as_f64()), (&plan, Some(MACHINE.length())), "{}", command.name);
     }
     let mut compared = 0;
-    for machine in Machine::random() {
+    for machine in Machine::random().take(6) {
         compared += COMMANDS.iter().filter(|command| same_json(&machine, command).is_some()).count();
     }
-    assert!(compared > 70, "{compared} of 120");
+    assert!(compared > 35, "{compared} of 60");
 }
