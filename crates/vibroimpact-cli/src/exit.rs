@@ -1,8 +1,13 @@
-//! The exit code: 0 done, 1 failed, 2 invalid question, 130 stopped.
+//! The exit code: 0 done, 1 failed, 2 invalid question, 130 stopped; and messages on stderr.
 
-use crate::complain::complain;
 use crate::failure::Failure;
 use crate::units_typed;
+use std::io::{self, Write};
+
+/// Writes a line to stderr. A failure is ignored, because there is no other place to report it.
+pub(crate) fn complain(line: &str) {
+    let _ = writeln!(io::stderr().lock(), "{line}");
+}
 
 /// Prints the error, if any, and returns the exit code.
 pub(crate) fn code(end: Result<(), Failure>) -> u8 {

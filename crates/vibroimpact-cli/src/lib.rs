@@ -6,7 +6,6 @@
 mod args;
 mod command_line;
 mod commands;
-mod complain;
 mod exit;
 mod failure;
 mod files;

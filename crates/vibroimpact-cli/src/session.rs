@@ -1,7 +1,7 @@
 //! The data common to all commands: the global options and the two output streams.
 
 use crate::args::Globals;
-use crate::complain::complain;
+use crate::exit::complain;
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::signal;

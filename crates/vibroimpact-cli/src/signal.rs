@@ -3,7 +3,7 @@
 //! Work that reads the stop flag ends within milliseconds. If other work takes longer, the program ends after a few
 //! seconds without waiting for it. This is safe, because output files appear only when they are complete.
 
-use crate::complain::complain;
+use crate::exit::complain;
 use crate::files;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;

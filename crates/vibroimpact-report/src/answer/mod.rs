@@ -369,7 +369,7 @@ impl<D: Told> AnswerOf<D> {
             }
             Results::Settle(found) => D::settled_table(self, found, view)?,
             Results::Attractors(found) => table::attractors::table(self, found),
-            Results::Orbit(found) => table::orbits::table(self.orbits(found), machine, units),
+            Results::Orbit(found) => table::orbits::orbits(self.orbits(found), machine, units),
             Results::Basin(found) => table::basin::table(self, found)?,
             Results::Map(found) => table::map::table(found, &self.system, (*units, machine.is_some()))?,
             Results::Diagram(found) => table::diagram::table(found, &self.system, *units)?,
@@ -377,8 +377,8 @@ impl<D: Told> AnswerOf<D> {
                 table::section::table(points, &self.system, &D::names(self), self.units)
             }
             Results::Lyapunov(..) => return Ok(None),
-            Results::Branch(found) => table::branch::table(self.branches(found)?, machine, (&self.cut()?, units)),
-            Results::Curve(found) => table::curve::table(self.curve(found)?, machine, (&self.curve_plan()?, units)),
+            Results::Branch(found) => table::orbits::branches(self.branches(found)?, machine, (&self.cut()?, units)),
+            Results::Curve(found) => table::orbits::curve(self.curve(found)?, machine, (&self.curve_plan()?, units)),
             Results::Region(found) => table::region::table(found, &self.region_plan()?, units),
             Results::Response(found) => table::response::table(D::response(self, found)?),
             Results::Edge(found) => table::edge::table(self, found),

@@ -1,8 +1,7 @@
 //! The attractors: one row for each, the most frequent first.
 
 use super::Table;
-use super::cycle::{drifts, numbered, parts};
-use super::quantities::finite;
+use super::orbits::{drifts, finite, numbered, parts};
 use super::remarks::remarks;
 use crate::FieldName;
 use crate::answer::{AnswerOf, Told};

@@ -1,7 +1,7 @@
 //! A basin: one row for each start, in the order of the cells.
 
 use super::Table;
-use super::quantities::finite;
+use super::orbits::finite;
 use super::remarks::remarks;
 use crate::answer::{AnswerOf, BasinOf, Told};
 use crate::number::Number;

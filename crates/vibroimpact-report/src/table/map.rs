@@ -1,7 +1,7 @@
 //! A map: one row for each motion at each point.
 
 use super::Table;
-use super::quantities::finite;
+use super::orbits::finite;
 use super::remarks::Remarks;
 use crate::json::event::Stops;
 use crate::number::Number;

@@ -3,16 +3,11 @@
 
 pub(crate) mod attractors;
 pub(crate) mod basin;
-pub mod bifurcation;
-pub mod branch;
-pub mod curve;
-mod cycle;
 pub mod diagram;
 pub mod edge;
 pub mod map;
 pub mod margins;
 pub mod orbits;
-mod quantities;
 pub mod region;
 pub(crate) mod remarks;
 pub mod response;

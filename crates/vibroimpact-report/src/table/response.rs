@@ -1,7 +1,7 @@
 //! The response over a number: one row for each motion of a sweep and each point of a branch.
 
 use super::Table;
-use super::quantities::finite;
+use super::orbits::finite;
 use crate::number::Number;
 use crate::response::ResponseView;
 use vibroimpact_study::ResponseRow;

@@ -11,7 +11,7 @@ pub use oscillator::{bifurcation, labels};
 use crate::figure::branch::{Picture, figure};
 use crate::figure::tracks::Shown;
 use crate::json::branch::{BranchEventObject, BranchObject, EventOf};
-use crate::table::{Table, bifurcation as bifurcation_table};
+use crate::table::{Table, diagram};
 use crate::{AnswerError, ReportError, ShownValue, Told, Units};
 use std::collections::BTreeMap;
 use vibroimpact::math::{sort_by, sort_by_key};
@@ -86,7 +86,7 @@ impl<D: Told> BifurcationDiagram<D> {
     /// As [`Self::figure`].
     pub fn table(&self) -> Result<Table<'static>, AnswerError> {
         let shown = shown(&self.behind.plan.show);
-        let table = bifurcation_table::table((&self.behind, &self.units), &self.system, &self.objects(), shown);
+        let table = diagram::with_branches((&self.behind, &self.units), &self.system, &self.objects(), shown);
         Ok(table.map_err(ReportError::from)?)
     }
 
