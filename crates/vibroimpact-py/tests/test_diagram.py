@@ -49,11 +49,6 @@ def test_listed_values(ds: xr.Dataset, tmp_path: Path) -> None:
         np.testing.assert_array_equal(stored[name].isel(gap=slice(None, None, -1)), listed[name])
     lines = listed.vibro.plot().get_lines()
     assert {float(x) for line in lines for x in line.get_xdata()} == set(gaps)
-    hammer = vi.Machine.named("two-mass-hammer")
-    machine = vi.orbit_diagram(hammer, "frequency", [0.9, 1.0, 1.15], direction="up")
-    again = vi.orbit_diagram(hammer, "frequency", "0.9:1:2", direction="up")
-    assert machine["frequency"].values.tolist() == [0.9, 1.0, 1.15]
-    xr.testing.assert_equal(machine["speed"].isel(frequency=slice(2)), again["speed"])
 
 
 def test_sweeps_and_what_is_shown(s: vi.Oscillator) -> None:

@@ -153,11 +153,7 @@ fn plans_that_make_no_sense_or_are_too_much() {
     let server = Server::begin();
     for (status, body, sentence) in [
         (400, map("NaN:1:10", "0:1:10", "1"), "NaN"),
-        (400, map("0.5:1:-10", "0:1:10", "1"), "-10"),
-        (400, map("-1:1:10", "0:1:10", "1"), "beta"),
-        (400, map("0.5:1e999:10", "0:1:10", "1"), "0.5:1e999:10"),
         (400, map("0.5:1:10", "0:1:10", "-1"), "-1"),
-        (400, map("0.5:1:10", "0:1:10", "0"), "starts = 0"),
         (422, map("0.5:1:1000", "0:1:1000", "1"), "points = 1000000 is more than the explorer computes at once"),
         (422, map("0.5:1:1000000", "0:1:1000000", "10000000"), "`vibro run`"),
         (400, plan(r#""settle":{"start":{"x":5}}"#), "beyond the stop"),

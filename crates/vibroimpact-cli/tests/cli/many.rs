@@ -88,8 +88,6 @@ fn summaries_and_refusals() {
     folder.refuse([
         (many("--beta 1 --gap 0:1"), "the following required arguments were not provided"),
         (many("--sample lhs:9 --beta 1 --gap 1"), "nothing varies"),
-        (many("--sample grid:9 --beta 1 --gap 0:1"), "neither sobol nor lhs"),
-        (many("--sample lhs:9 --beta 1 --gap 1:0"), "is not A:B with finite A < B"),
         (many("--points gaps.csv --beta 1 --gap 1"), "--gap cannot go together with the column gap"),
         (many("--points gaps.csv --beta 1:2"), "--beta is a range, and points of a table have one value"),
         (many("--points gaps.csv --beta 1 --v -1:1"), "--v is a range"),
