@@ -3,38 +3,27 @@
 use super::numbers::number;
 use crate::failure::Failure;
 use clap::Args;
-use core::str::FromStr;
 use vibroimpact_study::machine::MachineSource;
 
 /// Numbers of a machine that are changed.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct SetArgs {
     /// Another value of a number of the machine, by its path, such as stop.wall.gap=0.5; any number of times
-    #[arg(long, value_name = "PATH=VALUE", allow_hyphen_values = true)]
-    set: Vec<Change>,
+    #[arg(long, value_parser = change, value_name = "PATH=VALUE", allow_hyphen_values = true)]
+    set: Vec<(String, f64)>,
 }
 
-/// A path and a value.
-#[derive(Clone, Debug, PartialEq)]
-struct Change {
-    path: String,
-    value: f64,
-}
-
-impl FromStr for Change {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let (path, value) = text.split_once('=').ok_or("a path and a value are needed, such as stop.wall.gap=0.5")?;
-        Ok(Self { path: path.trim().to_owned(), value: number(value.trim())? })
-    }
+/// Reads a path and a value.
+fn change(text: &str) -> Result<(String, f64), String> {
+    let (path, value) = text.split_once('=').ok_or("a path and a value are needed, such as stop.wall.gap=0.5")?;
+    Ok((path.trim().to_owned(), number(value.trim())?))
 }
 
 impl SetArgs {
     /// The machine with these numbers, in the order in which they are given.
     pub(crate) fn apply(&self, source: MachineSource) -> Result<MachineSource, Failure> {
         let mut source = source;
-        for Change { path, value } in &self.set {
+        for (path, value) in &self.set {
             source = source.with(path, *value)?;
         }
         Ok(source)
@@ -47,8 +36,8 @@ mod tests {
 
     #[test]
     fn a_path_and_a_value() {
-        assert_eq!("a.b = -1e-3".parse(), Ok(Change { path: "a.b".to_owned(), value: -1e-3 }));
-        assert!("a.b".parse::<Change>().is_err_and(|why| why.contains("such as stop.wall.gap=0.5")));
-        assert!("a.b=x".parse::<Change>().is_err_and(|why| why.contains("`x` is not a number")));
+        assert_eq!(change("a.b = -1e-3"), Ok(("a.b".to_owned(), -1e-3)));
+        assert!(change("a.b").is_err_and(|why| why.contains("such as stop.wall.gap=0.5")));
+        assert!(change("a.b=x").is_err_and(|why| why.contains("`x` is not a number")));
     }
 }

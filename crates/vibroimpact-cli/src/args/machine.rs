@@ -5,7 +5,6 @@ use super::{SetArgs, number};
 use crate::failure::Failure;
 use crate::{machine_file, state_file};
 use clap::Args;
-use core::str::FromStr;
 use vibroimpact_study::machine::{MachineSource, NumberText, StartText, VectorText};
 use vibroimpact_study::{Axis, Coordinate, Variable};
 
@@ -42,8 +41,8 @@ pub(crate) struct StartOfMachineArgs {
 pub(crate) struct MachineAxesArgs {
     /// What varies over a machine, once for each axis: the path of a number, or q.NAME, qdot.NAME and phase of the start; A:B:N is N
     /// values from A to B, A:B:N:log is N values in equal ratios, and A,B,C is a list
-    #[arg(long, value_name = "PATH=A:B:N", allow_hyphen_values = true, requires = "machine")]
-    axis: Vec<AxisFlag>,
+    #[arg(long, value_parser = axis, value_name = "PATH=A:B:N", allow_hyphen_values = true, requires = "machine")]
+    axis: Vec<Axis<String>>,
 }
 
 /// The axes of a study of exponents, of an oscillator or of a machine.
@@ -52,8 +51,8 @@ pub(crate) struct MachineAxesArgs {
 pub(crate) struct StudyAxesArgs {
     /// What varies, once for each axis: a parameter, or x, v and phase of the start; of a machine the path of a number, or q.NAME,
     /// qdot.NAME and phase. A:B:N is N values from A to B, A:B:N:log is N values in equal ratios, and A,B,C is a list
-    #[arg(long, value_name = "NAME=A:B:N", allow_hyphen_values = true)]
-    axis: Vec<AxisFlag>,
+    #[arg(long, value_parser = axis, value_name = "NAME=A:B:N", allow_hyphen_values = true)]
+    axis: Vec<Axis<String>>,
 }
 
 impl StudyAxesArgs {
@@ -68,7 +67,7 @@ impl StudyAxesArgs {
 
     /// As axes of an oscillator.
     pub(crate) fn of_oscillator(&self) -> Result<Vec<Axis<Variable>>, Failure> {
-        let axis = |AxisFlag(Axis { vary, over }): &AxisFlag| {
+        let axis = |Axis { vary, over }: &Axis<String>| {
             let vary = Coordinate::named(&vary.replace('-', "_")).ok_or_else(|| {
                 Failure::bad(format!(
                     "`{vary}` cannot vary\nhint: a parameter, such as gap or inverse-beta, or x, v or phase"
@@ -80,24 +79,16 @@ impl StudyAxesArgs {
     }
 }
 
-/// An axis as it is typed.
-#[derive(Clone, Debug)]
-pub(crate) struct AxisFlag(Axis<String>);
-
-impl FromStr for AxisFlag {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let (vary, over) =
-            text.split_once('=').ok_or("an axis is PATH=A:B:N, for example stop.wall.gap=0:2:41".to_owned())?;
-        Ok(Self(Axis { vary: vary.trim().to_owned(), over: axis_values(over)? }))
-    }
+/// Reads an axis as it is typed.
+fn axis(text: &str) -> Result<Axis<String>, String> {
+    let (vary, over) =
+        text.split_once('=').ok_or("an axis is PATH=A:B:N, for example stop.wall.gap=0:2:41".to_owned())?;
+    Ok(Axis { vary: vary.trim().to_owned(), over: axis_values(over)? })
 }
 
-fn typed(flags: &[AxisFlag]) -> Vec<Axis<Variable>> {
-    let axis =
-        |AxisFlag(Axis { vary, over }): &AxisFlag| Axis { vary: Variable::Path(vary.clone()), over: over.clone() };
-    flags.iter().map(axis).collect()
+fn typed(axes: &[Axis<String>]) -> Vec<Axis<Variable>> {
+    let axis = |Axis { vary, over }: &Axis<String>| Axis { vary: Variable::Path(vary.clone()), over: over.clone() };
+    axes.iter().map(axis).collect()
 }
 
 impl MachineAxesArgs {

@@ -39,7 +39,7 @@ pub(crate) use question::{AskedSystem, Question, StartedArgs};
 pub(crate) use ranged::{Ranged, axis_values};
 pub(crate) use ranged_system::RangedSystemArgs;
 pub(crate) use start::StartArgs;
-pub(crate) use store::{Budget, BudgetArgs, Filling, StoreArgs, Tiles};
+pub(crate) use store::{BudgetArgs, Filling, StoreArgs, end, tiles};
 pub(crate) use system::{Convention, NumbersArgs, SystemArgs, ranges};
 pub(crate) use unit_text::UnitKind;
 pub(crate) use vary::of_oscillator;

@@ -4,7 +4,6 @@ use super::numbers::shown;
 use super::{Words, word};
 use crate::failure::Failure;
 use clap::Args;
-use core::str::FromStr;
 use vibroimpact_report::figure::overlay::{Layer, Overlay};
 use vibroimpact_study::typed::decimal;
 
@@ -17,12 +16,12 @@ pub(crate) struct OverlayArgs {
     layers: Option<Vec<Option<Layer>>>,
 
     /// Mark this point of a map of two parameters, in the units of the axes
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
-    mark: Option<Place>,
+    #[arg(long, value_parser = point, value_name = "X,Y", allow_hyphen_values = true)]
+    mark: Option<[f64; 2]>,
 
     /// Draw a line in a map of two parameters, in the units of the axes; it may leave the figure
-    #[arg(long, value_name = "X0,Y0:X1,Y1", allow_hyphen_values = true)]
-    line: Option<Segment>,
+    #[arg(long, value_parser = line, value_name = "X0,Y0:X1,Y1", allow_hyphen_values = true)]
+    line: Option<[f64; 4]>,
 }
 
 const LAYERS: Words<Option<Layer>, 6> = [
@@ -62,42 +61,27 @@ impl OverlayArgs {
                 layers
             }
         };
-        let line = self.line.map(|Segment(Place(x0, y0), Place(x1, y1))| [x0, y0, x1, y1]);
-        Ok(Overlay { layers, mark: self.mark.map(|Place(x, y)| [x, y]), line })
+        Ok(Overlay { layers, mark: self.mark, line: self.line })
     }
 }
 
-/// `X,Y`: a point of a figure.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Place(f64, f64);
-
-impl FromStr for Place {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let bad = || format!("`{}` is not X,Y with finite numbers, such as 1.3,0.75", shown(text));
-        let number = |part: &str| decimal(part).filter(|x| x.is_finite()).ok_or_else(bad);
-        let (x, y) = text.split_once(',').ok_or_else(bad)?;
-        Ok(Self(number(x)?, number(y)?))
-    }
+/// Reads `X,Y`: a point of a figure.
+fn point(text: &str) -> Result<[f64; 2], String> {
+    let bad = || format!("`{}` is not X,Y with finite numbers, such as 1.3,0.75", shown(text));
+    let number = |part: &str| decimal(part).filter(|x| x.is_finite()).ok_or_else(bad);
+    let (x, y) = text.split_once(',').ok_or_else(bad)?;
+    Ok([number(x)?, number(y)?])
 }
 
-/// `X0,Y0:X1,Y1`: a line in a figure.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Segment(Place, Place);
-
-impl FromStr for Segment {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let bad = || format!("`{}` is not X0,Y0:X1,Y1 with finite numbers, such as 1.1,0.5:1.1,2.5", shown(text));
-        let (from, to) = text.split_once(':').ok_or_else(bad)?;
-        let (from, to): (Place, Place) = (from.parse().map_err(|_| bad())?, to.parse().map_err(|_| bad())?);
-        if from == to {
-            return Err(format!("`{}` is no line: its two ends are the same point", shown(text)));
-        }
-        Ok(Self(from, to))
+/// Reads `X0,Y0:X1,Y1`: a line in a figure.
+fn line(text: &str) -> Result<[f64; 4], String> {
+    let bad = || format!("`{}` is not X0,Y0:X1,Y1 with finite numbers, such as 1.1,0.5:1.1,2.5", shown(text));
+    let (from, to) = text.split_once(':').ok_or_else(bad)?;
+    let ([x0, y0], [x1, y1]) = (point(from).map_err(|_| bad())?, point(to).map_err(|_| bad())?);
+    if (x0, y0) == (x1, y1) {
+        return Err(format!("`{}` is no line: its two ends are the same point", shown(text)));
     }
+    Ok([x0, y0, x1, y1])
 }
 
 #[cfg(test)]
@@ -106,16 +90,16 @@ mod tests {
 
     #[test]
     fn points_and_lines_and_what_is_none() {
-        assert_eq!("1.3,0.75".parse(), Ok(Place(1.3, 0.75)));
-        assert_eq!(" -1e-3, 2 ".parse(), Ok(Place(-1e-3, 2.0)));
-        assert_eq!("1,2:3,-4".parse(), Ok(Segment(Place(1.0, 2.0), Place(3.0, -4.0))));
+        assert_eq!(point("1.3,0.75"), Ok([1.3, 0.75]));
+        assert_eq!(point(" -1e-3, 2 "), Ok([-1e-3, 2.0]));
+        assert_eq!(line("1,2:3,-4"), Ok([1.0, 2.0, 3.0, -4.0]));
         for bad in ["", "1", "1,", ",1", "1,2,3", "1:2", "1,nan", "inf,1", "a,b"] {
-            assert!(bad.parse::<Place>().is_err_and(|why| why.contains("is not X,Y")), "{bad}");
+            assert!(point(bad).is_err_and(|why| why.contains("is not X,Y")), "{bad}");
         }
         for bad in ["", "1,2", "1,2:3", "1:2,3:4", "1,2:3,4:5,6", "1,2:3,inf"] {
-            assert!(bad.parse::<Segment>().is_err_and(|why| why.contains("is not X0,Y0:X1,Y1")), "{bad}");
+            assert!(line(bad).is_err_and(|why| why.contains("is not X0,Y0:X1,Y1")), "{bad}");
         }
-        assert!("1,2:1,2.0".parse::<Segment>().is_err_and(|why| why.contains("the same point")));
+        assert!(line("1,2:1,2.0").is_err_and(|why| why.contains("the same point")));
     }
 
     #[test]

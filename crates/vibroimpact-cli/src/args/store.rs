@@ -2,7 +2,6 @@
 
 use super::whole;
 use clap::Args;
-use core::str::FromStr;
 use std::time::{Duration, Instant};
 use vibroimpact_store::Part;
 use vibroimpact_study::typed::duration;
@@ -23,46 +22,27 @@ pub(crate) struct StoreArgs {
     pub(crate) shard: Option<u32>,
 
     /// Begin no tile after this time, as 90s, 30m, 8h or 2d; tiles that were begun are finished, and `vibro resume` goes on
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true, requires = "store")]
-    budget: Option<Budget>,
+    #[arg(long, value_parser = duration, value_name = "TIME", allow_hyphen_values = true, requires = "store")]
+    budget: Option<Duration>,
 }
 
 /// The time that a command may use to fill a store.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct BudgetArgs {
     /// Begin no tile after this time, as 90s, 30m, 8h or 2d; tiles that were begun are finished, and `vibro resume` goes on
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true, help_heading = "Store")]
-    budget: Option<Budget>,
+    #[arg(long, value_parser = duration, value_name = "TIME", allow_hyphen_values = true, help_heading = "Store")]
+    budget: Option<Duration>,
 }
 
 impl BudgetArgs {
-    pub(crate) const fn get(&self) -> Option<Budget> {
+    pub(crate) const fn get(&self) -> Option<Duration> {
         self.budget
     }
 }
 
-/// A positive time.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Budget(Duration);
-
-impl Budget {
-    /// The time.
-    pub(crate) const fn time(self) -> Duration {
-        self.0
-    }
-
-    /// The moment at which it is spent, if it begins now.
-    pub(crate) fn end(self) -> Option<Instant> {
-        Instant::now().checked_add(self.0)
-    }
-}
-
-impl FromStr for Budget {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        duration(text).map(Self)
-    }
+/// The moment at which a time is spent, if it begins now.
+pub(crate) fn end(budget: Duration) -> Option<Instant> {
+    Instant::now().checked_add(budget)
 }
 
 /// What fills a store: the place, which part of the tiles, and for how long.
@@ -70,7 +50,7 @@ impl FromStr for Budget {
 pub(crate) struct Filling<'a> {
     pub(crate) place: &'a str,
     pub(crate) part: Part,
-    pub(crate) budget: Option<Budget>,
+    pub(crate) budget: Option<Duration>,
 }
 
 impl StoreArgs {
@@ -81,18 +61,10 @@ impl StoreArgs {
     }
 }
 
-/// `I/N`: part I of N of the tiles.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Tiles(pub(crate) Part);
-
-impl FromStr for Tiles {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let bad =
-            || format!("`{}` is not I/N with whole numbers 1 <= I <= N", text.chars().take(60).collect::<String>());
-        let (index, of) = text.split_once('/').ok_or_else(bad)?;
-        let (Ok(index), Ok(of)) = (index.trim().parse(), of.trim().parse()) else { return Err(bad()) };
-        Part::new(index, of).map(Self).map_err(|_| bad())
-    }
+/// Reads `I/N`: part I of N of the tiles.
+pub(crate) fn tiles(text: &str) -> Result<Part, String> {
+    let bad = || format!("`{}` is not I/N with whole numbers 1 <= I <= N", text.chars().take(60).collect::<String>());
+    let (index, of) = text.split_once('/').ok_or_else(bad)?;
+    let (Ok(index), Ok(of)) = (index.trim().parse(), of.trim().parse()) else { return Err(bad()) };
+    Part::new(index, of).map_err(|_| bad())
 }

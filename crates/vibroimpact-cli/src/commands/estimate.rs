@@ -1,7 +1,7 @@
 //! `vibro estimate`: what a study will cost, before it is begun.
 
 use super::run::read;
-use crate::args::{Budget, within};
+use crate::args::within;
 use crate::failure::Failure;
 use crate::report::status::{clock, size};
 use crate::report::stored::title;
@@ -11,6 +11,7 @@ use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;
 use vibroimpact_store::{Estimate as Found, Sampling, estimate};
+use vibroimpact_study::typed::duration;
 use vibroimpact_study::{Plan, counted};
 
 /// What a study will cost: processor time, time on this machine, files, bytes and memory
@@ -29,8 +30,8 @@ pub(crate) struct Estimate {
     sample: u32,
 
     /// End the sample after this time
-    #[arg(long, value_name = "TIME", default_value = "30s", allow_hyphen_values = true)]
-    budget: Budget,
+    #[arg(long, value_parser = duration, value_name = "TIME", default_value = "30s", allow_hyphen_values = true)]
+    budget: Duration,
 
     /// Print one JSON object instead of text
     #[arg(long, help_heading = "Output")]
@@ -47,7 +48,7 @@ struct EstimateFields<'a> {
 
 pub(super) fn run(args: &Estimate, session: &Session) -> Result<(), Failure> {
     let plan = read(&args.plan)?;
-    let sampling = Sampling { blocks: args.sample, time: args.budget.time() };
+    let sampling = Sampling { blocks: args.sample, time: args.budget };
     let found = session.watched(None, |control| estimate(&plan, sampling, control))?;
     if !args.json {
         return session.print(&text(&plan, &found));

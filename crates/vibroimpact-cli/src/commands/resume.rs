@@ -1,7 +1,7 @@
 //! `vibro resume`: computes the missing tiles of a store.
 
 use super::stored;
-use crate::args::{BudgetArgs, Filling, Tiles};
+use crate::args::{BudgetArgs, Filling, tiles};
 use crate::failure::Failure;
 use crate::report::stored as report;
 use crate::session::Session;
@@ -19,8 +19,8 @@ pub(crate) struct Resume {
     store: String,
 
     /// Only part I of N of the tiles, for an array of jobs
-    #[arg(long, value_name = "I/N")]
-    tiles: Option<Tiles>,
+    #[arg(long, value_parser = tiles, value_name = "I/N")]
+    tiles: Option<Part>,
 
     #[command(flatten)]
     budget: BudgetArgs,
@@ -32,7 +32,7 @@ pub(crate) struct Resume {
 
 pub(super) fn run(args: &Resume, session: &Session) -> Result<(), Failure> {
     let store = stored::open(&args.store)?;
-    let part = args.tiles.map_or(Part::ALL, |tiles| tiles.0);
+    let part = args.tiles.unwrap_or(Part::ALL);
     let filling = Filling { place: &args.store, part, budget: args.budget.get() };
     let filled = stored::fill(&store, &filling, session)?;
     filled.end()?;

@@ -1,7 +1,7 @@
 //! `vibro run`: fills a store with the study of a plan in a file.
 
 use super::stored;
-use crate::args::{BudgetArgs, ColourArgs, Filling, OutputArgs, OverlayArgs, Question, Tiles};
+use crate::args::{BudgetArgs, ColourArgs, Filling, OutputArgs, OverlayArgs, Question, tiles};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -39,8 +39,8 @@ pub(crate) struct Run {
     pub(super) store: Option<String>,
 
     /// Only part I of N of the tiles, for an array of jobs
-    #[arg(long, value_name = "I/N", help_heading = "Store")]
-    tiles: Option<Tiles>,
+    #[arg(long, value_parser = tiles, value_name = "I/N", help_heading = "Store")]
+    tiles: Option<Part>,
 
     #[command(flatten)]
     budget: BudgetArgs,
@@ -106,7 +106,7 @@ pub(super) fn run(args: &Run, session: &Session) -> Result<(), Failure> {
     let colour = args.colour.coloured(outputs.drawn())?;
     let overlay = args.overlay.overlay(outputs.drawn(), colour.is_some())?;
     stored::check_overlay(&overlay, &plan, colour.is_some())?;
-    let part = args.tiles.map_or(Part::ALL, |tiles| tiles.0);
+    let part = args.tiles.unwrap_or(Part::ALL);
     let filling = Filling { place: &place, part, budget: args.budget.get() };
     stored::run(&plan, &filling, (outputs, Shown { colour, overlay, ..Shown::default() }), session)
 }

@@ -10,7 +10,6 @@ use crate::failure::Failure;
 use crate::points_file;
 use crate::session::Session;
 use clap::Args;
-use core::str::FromStr;
 use std::path::PathBuf;
 use vibroimpact_report::{Asked, Shown, Units, Varied};
 use vibroimpact_study::{
@@ -52,7 +51,7 @@ pub(crate) struct SettleMany {
     points: Option<PathBuf>,
 
     /// Draw N points from the ranges: by Sobol's sequence, or as a Latin hypercube
-    #[arg(long, value_name = "sobol:N|lhs:N", help_heading = "Points")]
+    #[arg(long, value_parser = drawn, value_name = "sobol:N|lhs:N", help_heading = "Points")]
     sample: Option<Drawn>,
 
     /// Which of the sequences of --sample
@@ -107,23 +106,19 @@ pub(crate) struct SettleMany {
     output: OutputArgs,
 }
 
-/// `sobol:N` or `lhs:N`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Drawn(PointRule, u64);
+/// The rule of a sample, and its number of points.
+type Drawn = (PointRule, u64);
 
-impl FromStr for Drawn {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let shown: String = text.chars().take(60).collect();
-        let (rule, count) = text.split_once(':').ok_or_else(|| format!("`{shown}` is not sobol:N or lhs:N"))?;
-        let rule = match rule.trim() {
-            "sobol" => PointRule::Sobol,
-            "lhs" => PointRule::Lhs,
-            other => return Err(format!("`{other}` is neither sobol nor lhs")),
-        };
-        Ok(Self(rule, whole(count.trim())?))
-    }
+/// Reads `sobol:N` or `lhs:N`.
+fn drawn(text: &str) -> Result<Drawn, String> {
+    let shown: String = text.chars().take(60).collect();
+    let (rule, count) = text.split_once(':').ok_or_else(|| format!("`{shown}` is not sobol:N or lhs:N"))?;
+    let rule = match rule.trim() {
+        "sobol" => PointRule::Sobol,
+        "lhs" => PointRule::Lhs,
+        other => return Err(format!("`{other}` is neither sobol nor lhs")),
+    };
+    Ok((rule, whole(count.trim())?))
 }
 
 impl SettleMany {
@@ -131,7 +126,7 @@ impl SettleMany {
     fn points_of_machine(&self) -> Result<PointsPlan<String>, Failure> {
         match (&self.points, self.sample) {
             (Some(path), _) => Ok(PointsPlan::Listed(points_file::read_for_machine(path)?)),
-            (None, Some(Drawn(rule, count))) => {
+            (None, Some((rule, count))) => {
                 let range = |over: &VariedOver| {
                     let (from, to) = over.ends();
                     PointRange { vary: over.0.path(), from, to }
@@ -201,7 +196,7 @@ impl SettleMany {
     }
 
     /// The system and the points that are drawn.
-    fn drawn(&self, Drawn(rule, count): Drawn) -> Result<(Asked, PointsPlan), Failure> {
+    fn drawn(&self, (rule, count): Drawn) -> Result<(Asked, PointsPlan), Failure> {
         let (asked, over) = self.asked(&[])?;
         let of_system = over.iter().map(|stretch| PointRange {
             vary: Coordinate::Parameter(stretch.parameter),
@@ -266,10 +261,10 @@ mod tests {
 
     #[test]
     fn rules_and_numbers_of_points() {
-        assert_eq!("lhs:1e5".parse(), Ok(Drawn(PointRule::Lhs, 100_000)));
-        assert_eq!("sobol: 64".parse(), Ok(Drawn(PointRule::Sobol, 64)));
+        assert_eq!(drawn("lhs:1e5"), Ok((PointRule::Lhs, 100_000)));
+        assert_eq!(drawn("sobol: 64"), Ok((PointRule::Sobol, 64)));
         for bad in ["lhs", "grid:5", "lhs:", "sobol:1.5", ":5"] {
-            assert!(bad.parse::<Drawn>().is_err(), "{bad}");
+            assert!(drawn(bad).is_err(), "{bad}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! `vibro status`: the progress of a store.
 
 use super::stored;
-use crate::args::Budget;
+use crate::args::end;
 use crate::failure::Failure;
 use crate::report::status::Status as Report;
 use crate::session::Session;
@@ -10,6 +10,7 @@ use clap::Args;
 use std::io::IsTerminal;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
+use vibroimpact_study::typed::duration;
 
 /// The progress of a store: the tiles that are done, the time that is left, the processor time used, and the plan
 ///
@@ -26,8 +27,8 @@ pub(crate) struct Status {
     watch: bool,
 
     /// Time between two reports of --watch
-    #[arg(long, value_name = "TIME", default_value = "5s", requires = "watch", allow_hyphen_values = true)]
-    every: Budget,
+    #[arg(long, value_parser = duration, value_name = "TIME", default_value = "5s", requires = "watch", allow_hyphen_values = true)]
+    every: Duration,
 
     /// Print one JSON object instead of text; with --watch, one at a time
     #[arg(long, help_heading = "Output")]
@@ -65,7 +66,7 @@ fn watch(args: &Status, session: &Session) -> Result<(), Failure> {
         if report.complete() {
             return Ok(());
         }
-        let next = args.every.end();
+        let next = end(args.every);
         while next.is_none_or(|next| Instant::now() < next) {
             if signal::flag().load(Ordering::Relaxed) {
                 return Err(Failure::Stopped("the study itself goes on if it is running".to_owned()));

@@ -1,6 +1,6 @@
 //! Common part of the commands that fill a store: run, report the numbers of tiles, and write tables and figures.
 
-use crate::args::{Budget, Filling};
+use crate::args::{Filling, end};
 use crate::commands::outputs::Outputs;
 use crate::failure::Failure;
 use crate::report::stored as report;
@@ -45,7 +45,7 @@ fn begin(plan: &Plan, place: &str) -> Result<Store, Failure> {
 /// Computes the missing tiles of a part, and prints their numbers.
 pub(super) fn fill(store: &Store, filling: &Filling<'_>, session: &Session) -> Result<Filled, Failure> {
     let (grid, part) = (store.study().grid(), filling.part);
-    let until = filling.budget.and_then(Budget::end);
+    let until = filling.budget.and_then(end);
     let total = store.points_of(part);
     let ran: Result<Ran, StoreError> =
         session.tiled(total, "points", |control, _| store.run_until(part, until, control));
