@@ -158,3 +158,14 @@ fn an_undecided_motion_names_the_flag_that_decides_it() {
     assert_eq!(decided["plan"]["task"]["settle"]["impacts"], 30_000);
     assert!(json(&format!("settle {chaotic}"))["plan"]["task"]["settle"].get("impacts").is_none());
 }
+
+/// Regression test (item 5): at beta 3 and gap 1/8 = |f|, orbits of speed 1.3e-16 were listed as motions.
+#[test]
+fn f05_a_touch_is_listed_as_no_orbit() {
+    let orbits =
+        |label: &str| json(&format!("orbit --beta 3 --gap 0.125 --restitution 0.5 --label {label}"))["orbits"].clone();
+    assert_eq!(orbits("1/1").as_array().unwrap().len(), 0);
+    let half = orbits("1/2");
+    assert_eq!(list(&half).len(), 1);
+    assert!(number(&half[0]["cycle"][0]["speed"]) > 0.5 && half[0]["admissible"] == true);
+}

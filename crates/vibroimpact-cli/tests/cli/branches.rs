@@ -231,3 +231,20 @@ fn the_legend_names_the_longest_of_many_labels() {
     }
     assert!(!figure.contains(">17/1<"));
 }
+
+/// Regression test (item 11): between a fold and a flip 3e-6 apart the table had no stability.
+#[test]
+fn f11_between_close_events_the_stability_is_known() {
+    let line = "branch --beta 2.55 --gap 0 --restitution 0.8 --label 1/1 --vary beta --to 3 --follow 4";
+    let text = printed(line);
+    let rows = |kind: &str| text.lines().filter(|row| row.trim_start().starts_with(kind)).collect::<Vec<_>>();
+    let fold = rows("fold").into_iter().find(|row| row.contains("2.84935992652")).unwrap();
+    assert!(fold.contains("5/4 unstable  5/4 stable"), "{fold}");
+    let flip = rows("flip").into_iter().find(|row| row.contains("2.84936316018")).unwrap();
+    assert!(flip.contains("5/4 stable    5/4 unstable"), "{flip}");
+    for row in rows("fold").iter().chain(&rows("flip")) {
+        let states: Vec<&str> =
+            row.split_whitespace().filter(|word| word.ends_with("stable") || *word == "unresolved").collect();
+        assert_eq!(states.len(), 2, "{row}");
+    }
+}

@@ -1,7 +1,7 @@
 //! Special cases of the interface: exact ends of ranges, `-` for stdout, empty places, and counts in texts.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use crate::{Folder, S, has, json, list};
+use crate::{Folder, S, has, json, list, number};
 
 /// Exit code, stdout and stderr.
 fn ran(line: &str) -> (Option<i32>, String, String) {
@@ -123,4 +123,20 @@ fn f11d_one_of_a_kind_is_no_plural() {
     has(&folder.printed("status s.zarr"), &["1 of 1 tile, 16 of 16 points"]);
     let (_, one, _) = ran("diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 1:1:1");
     assert!(one.starts_with("1 value of gap"), "{one}");
+}
+
+#[test]
+fn f10_phases_that_are_no_angles_are_refused() {
+    for phase in ["1e18", "-1e18", "1.1e15", "1e300"] {
+        for line in [
+            format!("settle {S} --phase={phase}"),
+            format!("simulate {S} --phase={phase}"),
+            format!("lyapunov {S} --phase={phase}"),
+            format!("basin {S} --x -1:0.5:2 --v 0:1:2 --phase={phase}"),
+        ] {
+            refused(&line, "lies outside -1e15 <= phase <= 1e15");
+        }
+    }
+    let start = number(&json(&format!("simulate {S} --phase 1e15 --impacts 1"))["start"]["phase"]);
+    assert!((start - 2.109_698_117_070_112_6).abs() < 1e-15);
 }

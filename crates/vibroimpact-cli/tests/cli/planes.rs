@@ -89,3 +89,43 @@ fn f06_the_region_of_the_motion_without_impacts() {
     let never = printed("region --label 0 --damping 0:0.1 --beta 1:1.1 --gap 0.5 --restitution 0.5");
     has(&never, &["existence: none, the amplitude of the motion without impacts exceeds a gap"]);
 }
+
+/// A related regression test: without damping, `branch` and `curve` of label 0 reported that there was nothing to
+/// follow.
+#[test]
+fn f06b_what_begins_with_no_impact_without_damping() {
+    for line in [
+        "branch --label 0 --beta 2 --gap 1 --restitution 0.5 --vary gap --to 0.1",
+        "curve --label 0 --beta 2 --gap 1 --restitution 0.5 --kind grazing --vary gap=0:2 --and beta=1.5:3",
+    ] {
+        let many = "without damping the steady motion without impacts is one of many";
+        has(&refused(line), &[many, "hint: a damping above 0"]);
+    }
+}
+
+/// Regression test (item 10): refused with "the cycle given does not solve its equations at these parameters".
+#[test]
+fn f10_a_grazing_curve_over_the_restitution() {
+    let answer = json(
+        "curve --inverse-beta=0.6326450838473209 --gap=1.422755681087771 --restitution=0.5 --label 1/1 --kind grazing \
+         --vary gap=-0.8:3.0 --and restitution=0.3:0.7 --event 2",
+    );
+    let points = list(&answer["points"]);
+    // delta = |f| for any restitution
+    assert!(points.iter().all(|point| (number(&point["values"][0]) - 0.667_333_049_989_617_4).abs() < 1e-12));
+    for (at, value) in [(0, 0.3), (points.len() - 1, 0.7)] {
+        let end = number(&points[at]["values"][1]);
+        assert!((end - value).abs() < 1e-12 || (end - (1.0 - value)).abs() < 1e-12, "{end}");
+    }
+}
+
+/// Regression test (item 12): took 46 s and found nothing.
+#[test]
+fn f12_a_region_over_tiny_restitutions() {
+    let line = "region --label 1/1 --inverse-beta=0.8366542825959349 --gap=1e-9:1 --restitution=0:1e-12 --grid=8";
+    let answer = json(line);
+    for kind in ["existence", "stability"] {
+        assert_eq!(list(&answer[kind]["polygons"]).len(), 1);
+        assert_eq!(list(&answer[kind]["unresolved"]).len(), 0);
+    }
+}

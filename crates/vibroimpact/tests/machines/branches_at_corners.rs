@@ -162,3 +162,39 @@ fn both_orbits_near_a_fold() {
     let found = find_machine_while(&machine, Label::new(1, 1), starts, &|| true).unwrap();
     assert_eq!(found.iter().map(|cycle| cycle.stable()).collect::<Vec<_>>(), [false, true]);
 }
+
+/// The surface of a lightly damped stop comes back in the limit only. Where the time between two contacts is so long that it stands back
+/// by less than any number, nothing happens.
+#[test]
+fn a_surface_below_all_numbers_is_no_corner() {
+    let law = StopLaw::Compliant { stiffness: 40_000.0, damping: 20.0, preload: 0.0, opening: Opening::Force };
+    let parts = MachineParts::new(["slide"]).with_mass(0, 2.0).with_link(&[1.0], 500.0, 6.0);
+    let parts = parts.with_frequency(18.0).with_force(0, 1, 0.0, 20.0).with_stop("buffer", &[1.0], 0.01, law);
+    let machine = machine(parts);
+    let cycle = settled(&machine, &Start::default()).unwrap();
+    assert_eq!(cycle.label.to_string(), "1/1");
+    // k/c times the time between contacts is 745 at about 17.2
+    for (range, direction) in [((16.0, 18.0), Direction::Down), ((18.0, 20.0), Direction::Up)] {
+        let points = traced((&machine, "frequency"), &cycle, range, direction);
+        assert_eq!(names(&points), ["end of range"]);
+        assert!(points.iter().all(|point| point.cycle.stable()));
+    }
+}
+
+/// Between two equal stops a mass loses both contacts at once, where its steady motion has the amplitude of the gaps:
+/// (1 - w^2)^2 + (d w)^2 = 1 for the force 1, so w^2 = 2 - d^2.
+#[test]
+fn contact_is_lost_on_both_sides() {
+    for opening in [Opening::Force, Opening::Position] {
+        let law = StopLaw::Compliant { stiffness: 10.0, damping: 1.0, preload: 0.0, opening };
+        let parts = MachineParts::new(["m"]).with_mass(0, 1.0).with_link(&[1.0], 1.0, 0.2);
+        let parts = parts.with_frequency(1.0).with_force(0, 1, 0.0, 1.0);
+        let machine = machine(parts.with_stop("up", &[1.0], 1.0, law).with_stop("low", &[-1.0], 1.0, law));
+        let cycle = settled(&machine, &Start::default()).unwrap();
+        let points = traced((&machine, "frequency"), &cycle, (1.0, 2.0), Direction::Up);
+        let found = events(&points);
+        let (last, value) = found.last().unwrap();
+        assert_eq!(last.name(), "loss of contact", "{found:?}");
+        assert!((value - 1.4).abs() < 1e-9, "{found:?}");
+    }
+}

@@ -238,3 +238,27 @@ fn no_room_is_left() {
     let time = seen.last().unwrap().time;
     assert!((time - 0.261_799_387_799_149_4).abs() < 1e-9, "{time}");
 }
+
+/// A body bounces without losses on a floor; another one clings to it by dry friction, which takes the energy: it slips after each
+/// impact and is held again. In the frame of the first one the other one moves by the same parts in each bounce, so that its place at
+/// the end is a geometric sum: m u'' = -f while it slips, and both rise with the momentum that is left.
+#[test]
+fn a_body_beside_a_sum_goes_its_way() {
+    let parts = MachineParts::new(["a", "b"])
+        .with_mass(0, 3.0)
+        .with_mass(1, 2.0)
+        .with_constant(0, -1.0)
+        .with_rigid_stop("floor", &[-1.0, 0.0], 0.1, 1.0)
+        .with_joint("grip", &[1.0, -1.0], 0.4, 0.4, 0.0);
+    let machine = Machine::new(parts).unwrap();
+    let start = Start { q: vec![0.0; 2], qdot: vec![-0.5; 2], ..Start::default() };
+    let (seen, end) = events(&machine, &start);
+    let last = seen.last().unwrap();
+    assert_eq!(end, Some(End::Stuck), "{last:?}");
+    // all energy is taken by the friction over the way of one along the other
+    let energy = 0.5 * 5.0 * 0.25 + 0.1;
+    let way = |k: usize| seen[k].q[0] - seen[k].q[1];
+    let rubbed: f64 = (1..seen.len()).map(|k| 0.4 * (way(k) - way(k - 1)).abs()).sum();
+    assert!((rubbed - energy).abs() < 1e-9, "{rubbed} {energy}");
+    assert!((last.q[1] + 1.9125).abs() < 1e-9, "{last:?}");
+}

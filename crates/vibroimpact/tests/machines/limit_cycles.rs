@@ -7,7 +7,7 @@ use vibroimpact::events::{EventKind, Limits, Motion, Start};
 use vibroimpact::machine::{Machine, MachineParts};
 use vibroimpact::math::Multiplier;
 use vibroimpact::quantities::machine_cycle_quantities;
-use vibroimpact::verdict::Count;
+use vibroimpact::verdict::{Count, scattered_machine_starts};
 
 /// A mass of 1 on a spring of 1, on a belt.
 pub(crate) fn on_belt((sliding, limit): (f64, f64), belt: f64, damping: f64) -> Machine {
@@ -133,4 +133,15 @@ fn what_is_no_limit_cycle() {
     let elastic = Machine::new(parts.with_rigid_stop("stop", &[1.0], 0.3, 1.0)).unwrap();
     let start = Start { q: vec![0.0], qdot: vec![1.0], phase: 0.0, ..Start::default() };
     assert_eq!(settled(&elastic, &start).label(), "undecided");
+}
+
+/// The scattered starts of a machine that only a belt drives fill the box of its motions: where the friction takes the body, and how fast
+/// the belt moves.
+#[test]
+fn starts_reach_as_far_as_a_belt_takes_bodies() {
+    let parts = MachineParts::new(["m"]).with_mass(0, 2.0).with_link(&[1.0], 800.0, 0.2);
+    let machine = Machine::new(parts.with_joint("disc", &[1.0], 6.0, 10.0, 0.3)).unwrap();
+    let starts: Vec<Start> = (0..40).map(|index| scattered_machine_starts(&machine, 1, index)).collect();
+    let largest = |of: fn(&Start) -> f64| starts.iter().map(of).fold(0.0_f64, |most, x| most.max(x.abs()));
+    assert!(largest(|start| start.q[0]) > 10.0 / 800.0 && largest(|start| start.qdot[0]) > 0.3);
 }

@@ -61,6 +61,8 @@ fn one_coordinate_has_the_quantities_of_the_oscillator() {
         Oscillator::new(0.3, 0.2, 0.0).unwrap(),
         Oscillator::new(0.35, -0.3, 0.3).unwrap().with_damping(0.02).unwrap(),
         Oscillator::new(0.7, 0.4, 1.0).unwrap().with_damping(0.1).unwrap(),
+        // the largest acceleration is that at the end of a chatter
+        Oscillator::new(0.302_377, 0.3, 0.3807).unwrap().with_damping(0.02).unwrap(),
     ];
     for _ in 0..150 {
         let osc = Oscillator::new(numbers.between(0.2, 3.0), numbers.between(-0.6, 1.5), numbers.next()).unwrap();

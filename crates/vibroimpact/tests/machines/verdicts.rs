@@ -185,3 +185,28 @@ fn f42u_the_longest_flight_has_no_unit() {
         assert_eq!(found.label(), "4/1", "{time}");
     }
 }
+
+/// A mass that rests on a stop at 0 until the force lifts it is at 0 at all its events, and a body beside it moves by rounding errors:
+/// all starts lead to one cycle.
+#[test]
+fn a_cycle_that_rests_at_zero_is_one() {
+    let parts = MachineParts::new(["middle", "other"])
+        .with_mass(0, 1.0)
+        .with_mass(1, 1.0)
+        .with_link(&[1.0, 0.0], 2.8, 0.33)
+        .with_link(&[0.0, 1.0], 44.0, 1.3)
+        .with_frequency(1.0)
+        .with_force(0, 1, 0.0, 1.0)
+        .with_rigid_stop("stop", &[1.0, 0.0], 0.0, 0.3);
+    let machine = Machine::new(parts).unwrap();
+    let cycle = |q: f64| {
+        let start = Start { q: vec![-0.1, q], qdot: vec![0.2, -q], ..Start::default() };
+        match settle_machine(&machine, &start, &SettleOptions::default()).unwrap().verdict {
+            Verdict::Periodic(cycle) => cycle,
+            other => panic!("{other:?}"),
+        }
+    };
+    let (one, other) = (cycle(0.3), cycle(-0.07));
+    assert_eq!(one.label.to_string(), "inf/1");
+    assert!(one.same_as(&other, 1e-6), "{one:?} {other:?}");
+}

@@ -480,3 +480,21 @@ fn f42m_short_ways_are_known() {
         assert_eq!(from(&osc, osc.gap().min(0.0) - 1.0, 0.0, 0.0).verdict.label(), label);
     }
 }
+
+/// At resonance without damping a motion grows without limit: x = (sin t - t cos t)/2 from rest strikes any stop in the end, however
+/// long it takes. That nothing was struck in a thousand periods says nothing; it was the verdict `0`. With damping the same holds where
+/// the steady motion reaches the stop.
+#[test]
+fn what_strikes_in_the_end_is_not_without_impact() {
+    let far = [
+        (undamped(1.0, 5000.0, 0.5), "resonance"),
+        (undamped(1.0, 40_000.0, 0.5).with_damping(1e-5).unwrap(), "damped"),
+    ];
+    for (osc, what) in far {
+        let settled = from(&osc, 0.0, 0.0, 0.0);
+        assert!(matches!(settled.verdict, Verdict::Undecided(_)), "{what}: {:?}", settled.verdict);
+    }
+    // where the steady motion does not reach it, nothing is struck
+    let osc = undamped(1.0, 60_000.0, 0.5).with_damping(1e-5).unwrap();
+    assert_eq!(from(&osc, 0.0, 0.0, 0.0).verdict.label(), "0");
+}
