@@ -5,7 +5,8 @@ use crate::branches_beyond::{agrees_with_simulation, chain, events, settled, tra
 use vibroimpact::continuation::{BranchEvent, Direction, machine::SolutionPoint};
 use vibroimpact::events::{EventKind, Start};
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
-use vibroimpact::orbit::{Label, find_machine_while};
+use vibroimpact::orbit::{Label, find_machine_while, machine::Cycle};
+use vibroimpact::verdict::scattered_machine_starts;
 
 /// The names of the events of a branch.
 fn names(points: &[SolutionPoint]) -> Vec<&'static str> {
@@ -197,4 +198,29 @@ fn contact_is_lost_on_both_sides() {
         assert_eq!(last.name(), "loss of contact", "{found:?}");
         assert!((value - 1.4).abs() < 1e-9, "{found:?}");
     }
+}
+
+/// Between two equal stops a symmetric cycle has two branches of cycles without the symmetry beside it, which turn back where they meet
+/// it. Along either of them this is a branch point, at the number at which it is one along the symmetric branch.
+#[test]
+fn a_branch_without_symmetry_turns_at_a_branch_point() {
+    let parts = MachineParts::new(["m", "idle"])
+        .with_mass(0, 1.0)
+        .with_mass(1, 1.0)
+        .with_link(&[1.0, 0.0], 1.0, 0.04)
+        .with_link(&[0.0, 1.0], 2.0, 1.3)
+        .with_frequency(1.0 / 0.7)
+        .with_force(0, 1, 0.0, 1.0);
+    let parts = parts.with_rigid_stop("upper", &[1.0, 0.0], 0.5, 0.7).with_rigid_stop("lower", &[-1.0, 0.0], 0.5, 0.7);
+    let machine = machine(parts);
+    let starts = (0..30).map(|index| scattered_machine_starts(&machine, 1, index));
+    let cycles = find_machine_while(&machine, Label::new(2, 1), starts, &|| true).unwrap();
+    let point = |cycle: &Cycle| {
+        let points = traced((&machine, "frequency"), cycle, (1.4, 1.6), Direction::Up);
+        let own = |(event, _): &&(BranchEvent, f64)| *event == BranchEvent::BranchPoint;
+        events(&points).iter().find(own).map(|(_, value)| *value)
+    };
+    let found: Vec<f64> = cycles.iter().filter_map(point).collect();
+    assert_eq!(found.len(), 3, "{found:?}");
+    assert!(found.iter().all(|value| (value - 1.510_970_603_43).abs() < 1e-9), "{found:?}");
 }

@@ -13,11 +13,6 @@ use crate::math::Lu;
 
 /// A system of equations with one equation fewer than unknowns.
 pub(crate) trait Equations {
-    /// Whether they take so long that it pays to evaluate them less often: solutions are predicted to second order, and a tangent
-    /// is taken from the last correction, which is below 1e-9. From so close a guess few corrections are left, so it has to be seen that
-    /// they converge.
-    const SLOW: bool = false;
-
     /// The weight of each unknown in the inner product; one for each unknown.
     fn weights(&self) -> &[f64];
 
@@ -45,10 +40,6 @@ pub(crate) trait Equations {
 const MAX_CORRECTIONS: u32 = 10;
 /// After a correction shorter than this, only rounding errors are left, because convergence is quadratic.
 const SETTLED: f64 = 1e-9;
-/// The error that is left then, as far as the last two corrections tell it.
-const LEFT: f64 = 1e-13;
-/// Where a correction is no smaller than this part of the one before it, rounding errors are all that is left.
-const NOISE: f64 = 0.1;
 /// A correction longer than this would lead to another solution and is refused.
 const ASTRAY: f64 = 1.0;
 
@@ -72,8 +63,6 @@ pub(crate) fn corrected<E: Equations>(
 ) -> Option<(Vec<f64>, u32, Lu)> {
     let width = guess.len();
     let mut w = guess.to_vec();
-    // before the first correction nothing is known
-    let mut before = f64::INFINITY;
     for count in 1..=MAX_CORRECTIONS {
         let (miss, mut rows) = equations.at(&w)?;
         // the last equation holds the distance along the tangent
@@ -90,10 +79,7 @@ pub(crate) fn corrected<E: Equations>(
             *w += change;
         }
         // the method is quadratic: the next correction would be below rounding
-        let last = core::mem::replace(&mut before, size);
-        let converges =
-            || !E::SLOW || size <= LEFT || last.is_finite() && (size * (size / last) <= LEFT || size > NOISE * last);
-        if size <= SETTLED && converges() {
+        if size <= SETTLED {
             return Some((w, count, factors));
         }
     }

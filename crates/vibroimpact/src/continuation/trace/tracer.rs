@@ -20,6 +20,10 @@ pub(crate) trait Problem: Clone + Debug {
     type Known: Clone + Debug;
     type Equations: Equations;
 
+    /// Whether equations take so long that it pays to evaluate them less often: solutions are predicted to second order, and a tangent
+    /// is taken from the last correction, which is below 1e-9.
+    const SLOW: bool = false;
+
     fn equations(&self) -> &Self::Equations;
 
     /// The rules for accepting steps and for the sign of a test function.
@@ -237,7 +241,7 @@ impl<P: Problem> Tracer<P> {
         let row = equations.row(&self.here.tangent);
         let level = equations.dot(&self.here.tangent, &self.here.w) + h;
         let (w, corrections, factors) = corrected(equations, guess, &row, level)?;
-        let along = if P::Equations::SLOW { tangent_of(equations, &factors, w.len()) } else { None };
+        let along = if P::SLOW { tangent_of(equations, &factors, w.len()) } else { None };
         Some((w, corrections, along))
     }
 
@@ -285,7 +289,7 @@ impl<P: Problem> Tracer<P> {
 
     fn found_between(&self, step: &Step<P::Known>, s: f64) -> Option<Corrected> {
         let mut guess = self.chord(&step.there, s / step.length);
-        if P::Equations::SLOW {
+        if P::SLOW {
             self.round(&mut guess, step, s / step.length);
         }
         self.across(&guess, s)
@@ -381,7 +385,7 @@ impl<P: Problem> Tracer<P> {
             // within rounding of zero the last known sign stays
             *known = sign(*value, zero).or(*known);
         }
-        if P::Equations::SLOW {
+        if P::SLOW {
             let length = self.ahead(&there.w);
             let turned = there.tangent.iter().zip(&self.here.tangent).map(|(after, before)| (after - before) / length);
             self.bend = (length > 0.0).then(|| turned.collect());

@@ -120,8 +120,6 @@ fn weights(machine: &Machine, ring: &MachineRing, sizes: (f64, f64)) -> Vec<f64>
 }
 
 impl<const N: usize> Equations for MachineEquations<N> {
-    const SLOW: bool = true;
-
     fn weights(&self) -> &[f64] {
         &self.weights
     }

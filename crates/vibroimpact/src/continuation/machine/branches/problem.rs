@@ -172,6 +172,8 @@ impl Problem for MachineProblem {
     type Known = Judged;
     type Equations = MachineEquations;
 
+    const SLOW: bool = true;
+
     fn equations(&self) -> &MachineEquations {
         &self.equations
     }

@@ -10,8 +10,9 @@ use super::problem::{Judged, MINUS_ONE, MachineSolution, PACE, PLUS_ONE, TORUS};
 use super::summed::{of_chatter, sums};
 use super::test_functions::TestFunction;
 use crate::continuation::event::BranchEvent;
+use crate::continuation::trace::equations::Equations;
 use crate::continuation::trace::tracer::{Crossing, Problem, Step, last};
-use crate::math::Multiplier;
+use crate::math::{Lu, Multiplier, root};
 use crate::orbit::RingEvent;
 use crate::regime::GuardKind;
 
@@ -45,7 +46,10 @@ impl EventBranch {
             (Some((s, ..)), _) => {
                 self.tracer.part(&step, s - ASIDE * step.length).map_or_else(Vec::new, |part| part.crossed)
             }
-            (None, Some(grazing)) => step.crossed.iter().copied().filter(|(s, _)| *s < grazing.s).collect(),
+            (None, Some(grazing)) => {
+                let until = grazing.s - ASIDE * step.length;
+                step.crossed.iter().copied().filter(|(s, _)| *s < until).collect()
+            }
             (None, None) => step.crossed.clone(),
         };
         let points = self.points_so_far();
@@ -113,9 +117,27 @@ impl EventBranch {
         Some(Grazing { s, at, zeros, before })
     }
 
+    /// The determinant of the equations with the tangent: where it changes its sign, another curve of solutions crosses.
+    fn orientation(&self, at: &MachineSolution) -> Option<f64> {
+        let equations = &self.tracer.problem.equations;
+        let (_, mut rows) = equations.at(&at.w)?;
+        let length = at.w.len();
+        rows[length * (length - 1)..].copy_from_slice(&equations.row(&at.tangent));
+        Some(Lu::new(rows, length)?.determinant())
+    }
+
+    /// The distance along a step at which another curve of solutions crosses, near `s`; `None` if none does.
+    fn crosses(&self, step: &Step<Judged>, s: f64) -> Option<f64> {
+        let (here, there) = (self.orientation(&self.tracer.here)?, self.orientation(&step.there)?);
+        if here * there >= 0.0 {
+            return None;
+        }
+        let value = |s: f64| self.orientation(&self.tracer.at(step, s)?);
+        Some(root::between(value, (0.0, here), (step.length, there), FINE * step.length).unwrap_or(s))
+    }
+
     /// Reports the event at a crossing, if it is one; returns whether the branch goes on.
     fn report(&mut self, step: &Step<Judged>, (s, what): Crossing) -> bool {
-        let turns = crossing(step, PACE).is_some();
         let event = match what {
             None => {
                 let at = self.on_end(step, s).unwrap_or_else(|| self.tracer.here.clone());
@@ -128,6 +150,15 @@ impl EventBranch {
                     self.end(&at, BranchEvent::Halving);
                     return false;
                 }
+                // a branch of cycles without a symmetry turns back where that of symmetric ones crosses it
+                if let Some(s) = self.crosses(step, s) {
+                    if let Some(at) = self.located(step, s, BranchEvent::BranchPoint)
+                        && off_circle(&at.known.multipliers, BranchEvent::BranchPoint) < NEARBY
+                    {
+                        self.add(&at, Some(BranchEvent::BranchPoint));
+                    }
+                    return true;
+                }
                 // of a machine twice beside itself two multipliers pass 1, and their product does not change its sign
                 match self.located(step, s, BranchEvent::Fold) {
                     Some(at) if off_circle(&at.known.multipliers, BranchEvent::Fold) < NEARBY => {
@@ -137,7 +168,7 @@ impl EventBranch {
                 }
                 return true;
             }
-            Some(PLUS_ONE) if turns => BranchEvent::Fold,
+            Some(PLUS_ONE) if self.crosses(step, s).is_none() => BranchEvent::Fold,
             Some(PLUS_ONE) => BranchEvent::BranchPoint,
             Some(MINUS_ONE) => BranchEvent::Flip,
             Some(TORUS) => BranchEvent::Torus,
@@ -269,6 +300,8 @@ const APART: f64 = 1e-2;
 const ZERO: f64 = 1e-7;
 /// The distance, in parts of a step, of a solution just beyond the last admissible one.
 const JUST: f64 = 1e-4;
+/// The resolution, in parts of a step, to which it is known where another curve crosses.
+const FINE: f64 = 1e-7;
 /// Zeros not farther apart than this along the step are one event.
 const TOGETHER: f64 = 1e-9;
 

@@ -103,8 +103,6 @@ impl CurveEquations {
 const ALONG: f64 = 1e-4;
 
 impl Equations for CurveEquations {
-    const SLOW: bool = true;
-
     fn weights(&self) -> &[f64] {
         self.events.weights()
     }
