@@ -140,8 +140,8 @@ impl GroupRule {
 /// No upper bound.
 const ANY: u64 = u64::MAX;
 
-/// The groups of motions m/n: the first rule that is satisfied determines the group. The Python package and the page
-/// contain the same table.
+/// The groups of motions m/n: the first rule that is satisfied determines the group. The page
+/// contains the same table.
 pub const GROUP_RULES: [GroupRule; 12] = [
     GroupRule::new((0, 0), (1, ANY), "0"),
     GroupRule::new((1, 1), (1, 1), "1/1"),
@@ -158,7 +158,7 @@ pub const GROUP_RULES: [GroupRule; 12] = [
 ];
 
 /// Further colours of the groups that have several labels; the labels of such a group have these and its own colour in
-/// turn. The Python package and the page contain the same table.
+/// turn. The page contains the same table.
 pub const SHADES: [(&str, [Colour; 4]); 5] = [
     ("m/1", colours([0xbb_acff, 0x73_8dfb, 0x5e_4674, 0x1c_5ac0])),
     ("1/n", colours([0xbf_5c40, 0xab_544e, 0xb5_531d, 0x65_0b00])),
