@@ -11,6 +11,7 @@ use super::equations::{Equations, correct, corrected, tangent, tangent_of, unit}
 use super::step_length::StepLength;
 use crate::math::root;
 use crate::math::sort_by;
+use core::cell::RefCell;
 use core::f64::consts::TAU;
 use core::fmt::Debug;
 
@@ -20,7 +21,7 @@ pub(crate) trait Problem: Clone + Debug {
     type Known: Clone + Debug;
     type Equations: Equations;
 
-    /// Whether equations take so long that it pays to evaluate them less often: solutions are predicted to second order, and a tangent
+    /// Whether equations take so long that it pays to evaluate them less often: solutions are predicted to third order, and a tangent
     /// is taken from the last correction, which is below 1e-9.
     const SLOW: bool = false;
 
@@ -115,6 +116,8 @@ pub(crate) struct Step<K> {
     pub(crate) crossed: Vec<Crossing>,
     /// The factor for the length of the next step.
     growth: f64,
+    /// The distance of the solution on it that was found last, and by how much the cubic between both ends missed it.
+    missed: RefCell<Option<(f64, Vec<f64>)>>,
 }
 
 /// The state of a trace: the current solution, the signs of the test functions, and the length of the next step.
@@ -125,8 +128,8 @@ pub(crate) struct Tracer<P: Problem> {
     pub(crate) signs: Vec<Option<bool>>,
     pub(crate) here: Solution<P::Known>,
     pub(crate) step: StepLength,
-    /// The derivative of the tangent along the curve before the current solution, where it is known.
-    bend: Option<Vec<f64>>,
+    /// The terms of second and third order of the cubic through the last two solutions, where there are two.
+    bend: Option<[Vec<f64>; 2]>,
 }
 
 /// A corrected point: its unknowns, the number of corrections, and its tangent if that is known already.
@@ -190,11 +193,14 @@ impl<P: Problem> Tracer<P> {
         });
         let h = end.map_or(h, |(_, to_end)| to_end);
         let guess: Vec<f64> = here.w.iter().zip(&here.tangent).map(|(w, t)| w + h * t).collect();
-        // where the curve bends much, the second order says nothing
-        let bend = self.bend.as_ref().filter(|bend| self.problem.equations().length(bend) * h < rules.stray);
+        // where the curve bends much, higher orders say nothing
+        let bend = self.bend.as_ref().filter(|bend| self.problem.equations().length(&bend[0]) * h < 0.5 * rules.stray);
         let near: Vec<f64> = bend.map_or_else(
             || guess.clone(),
-            |bend| guess.iter().zip(bend).map(|(w, bend)| w + 0.5 * h * h * bend).collect(),
+            |[second, third]| {
+                let orders = second.iter().zip(third);
+                guess.iter().zip(orders).map(|(w, (second, third))| w + h * h * (second + h * third)).collect()
+            },
         );
         let (w, corrections, along) = match end {
             // a solution exactly on the end, because the parameter can be invalid beyond it
@@ -229,7 +235,8 @@ impl<P: Problem> Tracer<P> {
             Some(_) => h + self.problem.equations().dot(&here.tangent, &off),
             None => h,
         };
-        let mut step = Step { there, length, on_end: end.is_some(), crossed: Vec::new(), growth };
+        let mut step =
+            Step { there, length, on_end: end.is_some(), crossed: Vec::new(), growth, missed: RefCell::default() };
         // if a zero cannot be located, the step is too long: there is another event before it
         step.crossed = self.crossings(&step, changed)?;
         Some(step)
@@ -289,10 +296,27 @@ impl<P: Problem> Tracer<P> {
 
     fn found_between(&self, step: &Step<P::Known>, s: f64) -> Option<Corrected> {
         let mut guess = self.chord(&step.there, s / step.length);
-        if P::SLOW {
-            self.round(&mut guess, step, s / step.length);
+        if !P::SLOW {
+            return self.across(&guess, s);
         }
-        self.across(&guess, s)
+        self.round(&mut guess, step, s / step.length);
+        let cubic = guess.clone();
+        // a cubic misses a curve by this function of the distance, times a number that changes little
+        let shape = |s: f64| {
+            let parts = s * (step.length - s);
+            parts * parts
+        };
+        if let Some((from, missed)) = &*step.missed.borrow() {
+            let share = shape(s) / shape(*from);
+            // close to the ends only rounding errors are missed
+            if share < MOST_MISSED {
+                guess.iter_mut().zip(missed).for_each(|(w, missed)| *w += share * missed);
+            }
+        }
+        let found = self.across(&guess, s)?;
+        let missed = found.0.iter().zip(&cubic).map(|(w, cubic)| w - cubic).collect();
+        step.missed.replace(Some((s, missed)));
+        Some(found)
     }
 
     /// Moves the point at this share of the chord of a step onto the cubic with the tangents at both ends.
@@ -344,7 +368,8 @@ impl<P: Problem> Tracer<P> {
     pub(crate) fn part(&self, step: &Step<P::Known>, s: f64) -> Option<Step<P::Known>> {
         let there = self.at(step, s)?;
         let changed = self.changed(&there);
-        let mut part = Step { there, length: s, on_end: false, crossed: Vec::new(), growth: 1.0 };
+        let mut part =
+            Step { there, length: s, on_end: false, crossed: Vec::new(), growth: 1.0, missed: RefCell::default() };
         part.crossed = self.crossings(&part, changed)?;
         Some(part)
     }
@@ -378,6 +403,19 @@ impl<P: Problem> Tracer<P> {
         self.passes(begin, there) && self.problem.equations().dot(&begin.tangent, &there.tangent) > 0.5
     }
 
+    /// The terms of second and third order at `there` of the cubic with the tangents at the current solution and there, by the
+    /// distance along the tangent there.
+    fn cubic_to(&self, there: &Solution<P::Known>) -> Option<[Vec<f64>; 2]> {
+        let (equations, here) = (self.problem.equations(), &self.here);
+        let way: Vec<f64> = there.w.iter().zip(&here.w).map(|(to, from)| to - from).collect();
+        let (length, pace) = (equations.dot(&there.tangent, &way), equations.dot(&there.tangent, &here.tangent));
+        let terms = here.tangent.iter().zip(&there.tangent).zip(&way).map(|((from, to), way)| {
+            let (from, chord) = (from / pace, way / length);
+            ((2.0 * to + from - 3.0 * chord) / length, (to + from - 2.0 * chord) / (length * length))
+        });
+        (length > 0.0).then(|| terms.unzip()).map(|(second, third)| [second, third])
+    }
+
     /// Makes `there` the current solution.
     pub(crate) fn take(&mut self, there: Solution<P::Known>) {
         let zero = self.problem.rules().zero;
@@ -386,9 +424,7 @@ impl<P: Problem> Tracer<P> {
             *known = sign(*value, zero).or(*known);
         }
         if P::SLOW {
-            let length = self.ahead(&there.w);
-            let turned = there.tangent.iter().zip(&self.here.tangent).map(|(after, before)| (after - before) / length);
-            self.bend = (length > 0.0).then(|| turned.collect());
+            self.bend = self.cubic_to(&there);
         }
         self.here = there;
         // new weights change the length of the tangent, which has to be 1
@@ -408,6 +444,8 @@ pub(crate) fn last(w: &[f64]) -> f64 {
     w.last().copied().unwrap_or(f64::NAN)
 }
 
+/// What a cubic misses at one place tells it at another where it is not so many times as large.
+const MOST_MISSED: f64 = 16.0;
 /// The factor for the length of the next step after an easy step.
 const GROWTH: f64 = 1.6;
 /// The resolution to which the end of a range is located along the step.

@@ -139,9 +139,9 @@ impl Iterator for UnreducedBranch {
 
 impl EventBranch {
     /// The stop of the only impact of a cycle, if this impact disappears; of several that have no speed there, as of equal parts or on
-    /// both sides, that of the first.
+    /// both sides, the first stop.
     fn lost(&self, at: &MachineSolution, found: &Difference) -> Option<usize> {
-        let Difference::Disappears { at: event, stop } = *found else { return None };
+        let Difference::Disappears { at: event, .. } = *found else { return None };
         let (machine, ring) = self.tracer.problem.equations.split(&at.w)?;
         let cycle = at.known.cycle.as_ref()?;
         let mut gone = without_speed(&machine, &ring, cycle.sizes.1);
@@ -150,7 +150,9 @@ impl EventBranch {
         let impacts = gone.iter().map(|k| ring.events.get(*k).map_or(0, |event| event.pushed.len().max(1)));
         let closings = cycle.counts.iter().sum::<u32>();
         // a contact has two events, its beginning and its end
-        (closings as usize == impacts.sum::<usize>() && ring.len() <= 2 * gone.len()).then_some(stop)
+        let all = closings as usize == impacts.sum::<usize>() && ring.len() <= 2 * gone.len();
+        let stops = gone.iter().map(|k| ring.events[*k].guard.place(machine.stops().len()));
+        stops.filter(|_| all).min()
     }
 
     /// The corner that it is if an impact appears at the time of another one and no cycle with it exists close by: a contact without

@@ -10,20 +10,24 @@ pub(crate) fn edge<P: Problem>(
     outside: f64,
     admissible: impl Fn(&P::Known) -> bool,
 ) -> Option<(f64, Solution<P::Known>, P::Known)> {
-    let known = |s: f64| tracer.problem.known(&tracer.between(step, s)?);
-    let (mut low, mut high) = (0.0, outside);
-    let mut beyond = if outside == step.length { Some(step.there.known.clone()) } else { known(outside) };
+    let known = |s: f64| {
+        let w = tracer.between(step, s)?;
+        Some((tracer.problem.known(&w)?, w))
+    };
+    let (mut low, mut high, mut inside) = (0.0, outside, None);
+    let mut beyond =
+        if outside == step.length { Some(step.there.known.clone()) } else { known(outside).map(|(known, _)| known) };
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
         if high - low <= 1e-14 * step.length.max(1e-3) {
             break;
         }
         match known(middle) {
-            Some(known) if admissible(&known) => low = middle,
-            Some(known) => (high, beyond) = (middle, Some(known)),
+            Some((known, w)) if admissible(&known) => (low, inside) = (middle, Some(w)),
+            Some((known, _)) => (high, beyond) = (middle, Some(known)),
             None => high = middle,
         }
     }
-    let inside = if low > 0.0 { tracer.at(step, low)? } else { tracer.here.clone() };
+    let inside = inside.map_or_else(|| Some(tracer.here.clone()), |w| tracer.solution(w))?;
     Some((low, inside, beyond?))
 }

@@ -109,12 +109,26 @@ impl EventBranch {
         if !first.is_none_or(is_zero) {
             return None;
         }
-        // rounding decides which events the motion has here, and the number can turn: the solution just before stands for it
-        let outside = (s + APART * step.length).min(step.length);
-        let last = edge(&self.tracer, step, outside, Judged::physical)
-            .map_or_else(|| self.tracer.here.clone(), |(_, last, _)| last);
+        // rounding decides which events the motion has here, and the number can turn: a solution just before stands for it
+        let last = self.just_before(step, s).unwrap_or_else(|| self.tracer.here.clone());
         let at = MachineSolution { w, ..last };
         Some(Grazing { s, at, zeros, before })
+    }
+
+    /// An admissible solution before a zero at the distance `s` on a step, not farther than twice as far as rounding demands.
+    fn just_before(&self, step: &Step<Judged>, s: f64) -> Option<MachineSolution> {
+        let (mut found, [mut admissible, mut rounded]) = (None, HALVINGS);
+        while rounded - admissible > 1 {
+            let halvings = i32::midpoint(admissible, rounded);
+            let place = s - step.length * 2.0_f64.powi(-halvings);
+            let at = (place > 0.0).then(|| self.tracer.at(step, place)).flatten();
+            match at.filter(|at| at.known.physical()) {
+                Some(at) => (found, admissible) = (Some(at), halvings),
+                None if place > 0.0 => rounded = halvings,
+                None => admissible = halvings,
+            }
+        }
+        found
     }
 
     /// The determinant of the equations with the tangent: where it changes its sign, another curve of solutions crosses.
@@ -296,6 +310,8 @@ struct Grazing {
 
 /// The distance, in parts of a step, from such a zero of the solutions that are compared.
 const APART: f64 = 1e-2;
+/// Halvings of a step to the distances from such a zero between which the least one is that rounding allows.
+const HALVINGS: [i32; 2] = [6, 48];
 /// A function that has to be positive is zero below this.
 const ZERO: f64 = 1e-7;
 /// The distance, in parts of a step, of a solution just beyond the last admissible one.
