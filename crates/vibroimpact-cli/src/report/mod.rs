@@ -75,7 +75,7 @@ fn text_of<D: Teller>(of: &AnswerOf<D>) -> Result<String, Failure> {
         }
         Results::Diagram(found) => diagram::text(found, units),
         Results::Lyapunov(found, _) => lyapunov::text(of, found),
-        Results::Branch(found) => branch::text(&of.branches(found)?, machine, (&of.cut()?, units)),
+        Results::Branch(found) => branch::text(&of.branches_in_words(found)?, machine, (&of.cut()?, units)),
         Results::Curve(found) => curve::text(&of.curve(found)?, (&of.curve_plan()?, units)),
         Results::Region(found) => {
             let plan = of.region_plan()?;

@@ -336,7 +336,16 @@ impl<D: Told> AnswerOf<D> {
     /// # Errors
     /// As [`Self::cut`].
     pub fn branches<'a>(&'a self, found: &'a BranchesOf<D>) -> Result<BranchAnswer<'a>, PlanError> {
-        Ok(BranchAnswer::new(self, found, &self.cut()?))
+        let cut = self.cut()?;
+        Ok(BranchAnswer::new(self, found, &cut, D::shown_on_branches(self, found, &cut)))
+    }
+
+    /// The same without quantities of its points, for the text.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    pub fn branches_in_words<'a>(&'a self, found: &'a BranchesOf<D>) -> Result<BranchAnswer<'a>, PlanError> {
+        Ok(BranchAnswer::new(self, found, &self.cut()?, None))
     }
 
     /// The answer to `vibro curve`.

@@ -207,9 +207,14 @@ struct TouchObject<'a> {
 pub type Along<'a, D> = (&'a D, &'a <D as Dynamics>::System, &'a Units);
 
 impl<'a> BranchAnswer<'a> {
-    /// The branches along a line.
-    pub(crate) fn new<D: Told>(of: &'a AnswerOf<D>, found: &'a BranchesOf<D>, cut: &Cut<D::Name>) -> Self {
-        let (units, show) = (&of.units, D::shown_on_branches(of, found, cut));
+    /// The branches along a line, with the quantity `show` at each point.
+    pub(crate) fn new<D: Told>(
+        of: &'a AnswerOf<D>,
+        found: &'a BranchesOf<D>,
+        cut: &Cut<D::Name>,
+        show: Option<D::Shown>,
+    ) -> Self {
+        let units = &of.units;
         let along = (&of.written, &of.system, units);
         let branch = |points, start| BranchObject::new::<D>(along, (points, start), cut, show.as_ref());
         let unit = cut.vary.unit(units);
