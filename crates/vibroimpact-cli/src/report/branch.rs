@@ -172,6 +172,7 @@ fn of_machine(event: BranchEvent, machine: &Machine) -> String {
             }
         }
         BranchEvent::LossOfContact { stop, .. } => format!("{} is no longer reached", name(stop)),
+        BranchEvent::RestForEver { stop } if stop >= machine.stops().len() => format!("{} slips no more", name(stop)),
         BranchEvent::RestForEver { stop } => format!("no force pulls it off {} any more", name(stop)),
         BranchEvent::Corner { first, second } if first == second => {
             format!("two limits of {} at once", name(first))

@@ -90,9 +90,9 @@ pub enum BranchEvent {
         /// The first of these impacts.
         detail: Option<EventDetail>,
     },
-    /// The cycle rests on a stop; beyond, no force pulls it off for ever.
+    /// The cycle rests on a stop, or a joint holds in it; beyond, no force pulls it off or lets the joint slip for ever.
     RestForEver {
-        /// The stop.
+        /// The stop or joint.
         stop: usize,
     },
     /// An inadmissible solution becomes admissible.

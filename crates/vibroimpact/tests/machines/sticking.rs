@@ -87,9 +87,25 @@ fn holding_for_ever() {
     for (beta, from) in [(0.8, 0.9), (0.3, 0.97)] {
         let start = (from, &Start::default());
         let point = first_event(move |friction| den_hartog(beta, friction), start, ((0.001, 1.2), Direction::Up));
-        assert_eq!(point.event, Some(BranchEvent::Holding { joint: 0, begins: true }), "{beta} {}", point.value);
+        assert_eq!(point.event, Some(BranchEvent::RestForEver { stop: 0 }), "{beta} {}", point.value);
         assert!((point.value - 1.0).abs() < 1e-12, "{beta} {}", point.value);
     }
+}
+
+/// The machine swings on beside a body that a joint holds: then its force is that of a linear spring and damper.
+#[test]
+fn one_body_is_held_for_ever() {
+    let make = |friction| {
+        let parts = MachineParts::new(["a", "b"]).with_mass(0, 1.0).with_mass(1, 0.7).with_link(&[1.0, 0.0], 1.0, 0.1);
+        let parts = parts.with_link(&[1.0, -1.0], 1.0, 0.1).with_frequency(1.2).with_force(0, 1, 0.0, 1.0);
+        Machine::new(parts.with_joint("floor", &[0.0, 1.0], friction, friction, 0.0)).ok()
+    };
+    let point =
+        first_event(move |friction| make(friction).unwrap(), (1.5, &Start::default()), ((0.1, 2.0), Direction::Up));
+    assert_eq!(point.event, Some(BranchEvent::RestForEver { stop: 0 }), "{}", point.value);
+    let omega: f64 = 1.2;
+    let exact = 1.0_f64.hypot(0.1 * omega) / (2.0 - omega * omega).hypot(0.2 * omega);
+    assert!((point.value - exact).abs() < 1e-9, "{} {exact}", point.value);
 }
 
 /// The points of a curve from one end to the other.

@@ -225,7 +225,7 @@ impl EventBranch {
         if let Some(stop) = self.lost(at, found) {
             return self.end(at, BranchEvent::LossOfContact { stop, detail: None });
         }
-        let of_rest = matches!(found, Difference::Rest { joint: false, .. } | Difference::Other { .. });
+        let of_rest = matches!(found, Difference::Rest { .. } | Difference::Other { .. });
         if of_rest && self.rests(at) {
             return;
         }
