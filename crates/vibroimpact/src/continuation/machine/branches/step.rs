@@ -103,7 +103,8 @@ impl EventBranch {
         let before = near(-APART).filter(|(_, at)| !admissible(at)).map(|(before, _)| before);
         let together = step.crossed.iter().filter(needed).filter(|(other, _)| other - s < TOGETHER);
         let zeros = together.filter_map(|(_, what)| what.map(|j| self.tracer.problem.tests[j])).collect();
-        let w = self.tracer.between(step, s)?;
+        // at the zero itself the equations can be singular to rounding
+        let w = CLOSE.into_iter().find_map(|by| self.tracer.between(step, s + by * step.length))?;
         // where an event is at the least gap, rounding decides whether a flight has that gap, and its function changes its sign by a jump
         let is_zero = |j: usize| self.tracer.problem.test(j, &w, || None).is_none_or(|value| value.abs() < ZERO);
         if !first.is_none_or(is_zero) {
@@ -310,6 +311,8 @@ struct Grazing {
 
 /// The distance, in parts of a step, from such a zero of the solutions that are compared.
 const APART: f64 = 1e-2;
+/// Distances, in parts of a step, at which a solution stands for one at such a zero.
+const CLOSE: [f64; 5] = [0.0, 1e-12, -1e-12, 1e-10, -1e-10];
 /// Halvings of a step to the distances from such a zero between which the least one is that rounding allows.
 const HALVINGS: [i32; 2] = [6, 48];
 /// A function that has to be positive is zero below this.
