@@ -67,11 +67,10 @@ pub(crate) struct RateGrid(RefCell<Grid>);
 
 /// Nodes on each side of a value.
 const HALF: i64 = 4;
-/// The largest distance of nodes, in parts of the size of the number.
-const WIDTH: f64 = 0.008;
-/// Derivatives from all nodes and from those without the outer ones differ by less, relative to the numbers: otherwise they
-/// vary too much for so few nodes.
-const ALIKE: f64 = 1e-8;
+/// The largest distance of nodes, in parts of the size of the number, and by how much derivatives from all nodes and from those without
+/// the outer ones may differ, relative to the numbers: if they differ by more, these vary too much for so few nodes. Polynomials, as most
+/// numbers are, are right to rounding with distant nodes, which serve many values.
+const GRIDS: [(f64, f64); 2] = [(0.1, 1e-13), (0.008, 1e-8)];
 /// The largest number of machines that are kept.
 const KEPT: usize = 64;
 /// From this number of nodes between 0 and the value on, their values are not told apart well.
@@ -86,7 +85,8 @@ impl RateGrid {
     ) -> Option<MachineParts> {
         // nodes that are farther apart serve more values
         let sizes = [scale.max(value.abs()), scale.min(value.abs().max(0.1 * scale))];
-        let found = sizes.into_iter().find_map(|size| self.interpolated(at, (value, size)));
+        let found = |grid| sizes.into_iter().find_map(|size| self.interpolated(at, (value, size), grid));
+        let found = GRIDS.into_iter().find_map(found);
         found.or_else(|| MachineParts::rate(at, (value, scale)))
     }
 
@@ -95,9 +95,10 @@ impl RateGrid {
         &self,
         at: &dyn Fn(f64) -> Option<MachineParts>,
         (value, size): (f64, f64),
+        (distance, most): (f64, f64),
     ) -> Option<MachineParts> {
         // a power of two, so that the nodes are exact
-        let exponent = libm::ilogb(WIDTH * size);
+        let exponent = libm::ilogb(distance * size);
         let width = libm::ldexp(1.0, exponent);
         let place = value / width;
         if !(size > 0.0 && place.abs() < FAR) {
@@ -118,7 +119,7 @@ impl RateGrid {
                 weights.iter().zip(changes).map(|(weight, change)| weight * change).sum::<f64>() / width
             };
             let (rate, other) = (of(&all, 0), of(&inner, 1));
-            let alike = (rate - other).abs() <= ALIKE * (rate.abs() + numbers[0][i].abs() / size);
+            let alike = (rate - other).abs() <= most * (rate.abs() + numbers[0][i].abs() / size);
             alike.then_some(rate)
         };
         let rates: Vec<f64> = (0..count).map(rate).collect::<Option<_>>()?;
