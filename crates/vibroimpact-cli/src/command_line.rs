@@ -168,7 +168,7 @@ fn dashed(unknown: &str, words: &[String]) -> Option<String> {
 fn after_force(unknown: &str, words: &[String]) -> Option<String> {
     let given = words.windows(2).any(|pair| pair[0] == "--force" && pair[1] == unknown);
     let number = unknown.starts_with(|c: char| c.is_ascii_digit() || c == '.');
-    (given && number).then(|| format!("the force of a machine is '--force-n {unknown}'; '--force' replaces files"))
+    (given && number).then(|| format!("the force of a body is '--force-n {unknown}'; '--force' replaces files"))
 }
 
 #[cfg(test)]
@@ -222,7 +222,7 @@ mod tests {
     fn a_force_that_is_no_flag() {
         let tip = |unknown: &str, line: &str| after_force(unknown, &words(line));
         let found = tip("30N", "vibro attractors --force 30N --gap 1");
-        assert_eq!(found.as_deref(), Some("the force of a machine is '--force-n 30N'; '--force' replaces files"));
+        assert_eq!(found.as_deref(), Some("the force of a body is '--force-n 30N'; '--force' replaces files"));
         assert_eq!(tip("x", "vibro attractors --force x"), None);
         assert_eq!(tip("30", "vibro attractors --gap 1 30"), None);
     }

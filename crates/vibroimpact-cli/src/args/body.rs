@@ -6,7 +6,7 @@ use super::unit_text::UnitKind;
 use crate::failure::Failure;
 use clap::Args;
 use vibroimpact_report::{Asked, Units};
-use vibroimpact_study::{Axis, Body, BodyNumber, Parameter, SystemPlan, UnitsPlan};
+use vibroimpact_study::{Axis, Body, BodyNumber, Parameter, SystemPlan, UnitsPlan, Values};
 
 /// The system as a body: mass, stiffness, force, frequency, gap and restitution, instead of --beta, --gap and --damping.
 #[derive(Clone, Debug, Default, Args)]
@@ -157,16 +157,20 @@ impl BodyArgs {
 
     /// Refuses several values of a number.
     pub(super) fn one_value(&self, hint: &str) -> Result<(), Failure> {
-        let mut several = self.ranges().map(|(number, _)| flag(Parameter::Body(number)));
+        let mut several = self.ranges().map(|(number, given)| (flag(Parameter::Body(number)), given));
         let other = [("log-decrement", &self.log_decrement), ("omega-rad-per-s", &self.omega_rad_per_s)];
-        let other = other.into_iter().find(|(_, given)| given.as_ref().is_some_and(|given| !given.is_one()));
-        match several.next().or(other.map(|(flag, _)| flag)) {
-            Some(flag) => Err(Failure::bad(format!(
-                "--{flag} is a range, and here it has one value\nhint: {}",
-                hint.replace("FLAG", flag)
-            ))),
-            None => Ok(()),
-        }
+        let mut other = other.into_iter().filter_map(|(flag, given)| Some((flag, given.as_ref()?)));
+        let Some((flag, given)) = several.next().or_else(|| other.find(|(_, given)| !given.is_one())) else {
+            return Ok(());
+        };
+        let hint = hint.replace("FLAG", flag);
+        Err(Failure::bad(match given {
+            Ranged::Over(Values::Listed(values)) => {
+                let point = "of one number the decimal sign is a point";
+                format!("--{flag} has {} values, and here it has one\nhint: {point}; {hint}", values.len())
+            }
+            _ => format!("--{flag} is a range, and here it has one value\nhint: {hint}"),
+        }))
     }
 
     /// The numbers with several values, which are ranges A:B.

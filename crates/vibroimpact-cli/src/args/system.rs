@@ -245,8 +245,12 @@ impl NumbersArgs {
         let plan = body.plan((restitution, second), set)?;
         let of_body = |of: Parameter| matches!(of, Parameter::Restitution | Parameter::SecondRestitution);
         if let Some((parameter, _)) = self.given().find(|(parameter, _)| !of_body(*parameter)) {
+            let hint = match parameter {
+                Parameter::Gap | Parameter::SecondGap => "\nhint: a gap in physical units has its unit, as 1.5mm",
+                _ => "",
+            };
             let flag = flag(parameter);
-            return Err(Failure::bad(format!("--{flag} cannot go together with a system in physical units")));
+            return Err(Failure::bad(format!("--{flag} cannot go together with a system in physical units{hint}")));
         }
         super::body::asked(&plan, units == Convention::Si)
     }
