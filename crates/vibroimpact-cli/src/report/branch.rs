@@ -171,6 +171,9 @@ fn of_machine(event: BranchEvent, machine: &Machine) -> String {
                 None => format!("an impact on {} {verb}s; the parameter {way}", name(stop)),
             }
         }
+        BranchEvent::LossOfContact { stop, .. } if stop >= machine.stops().len() => {
+            format!("{} holds no more", name(stop))
+        }
         BranchEvent::LossOfContact { stop, .. } => format!("{} is no longer reached", name(stop)),
         BranchEvent::RestForEver { stop } if stop >= machine.stops().len() => format!("{} slips no more", name(stop)),
         BranchEvent::RestForEver { stop } => format!("no force pulls it off {} any more", name(stop)),

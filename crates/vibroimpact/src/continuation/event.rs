@@ -74,9 +74,9 @@ pub enum BranchEvent {
     /// The only impact or closing has speed zero; beyond, there is none. Of an oscillator this event occurs only without damping,
     /// where the orbits 1/n of all n end together in one of a continuum of motions without impacts, so the branch ends. With
     /// damping it is a [`Grazing`](Self::Grazing) event with the label 0 after it, and the branch goes on along the steady
-    /// motion without impacts.
+    /// motion without impacts. Of a joint, its only hold takes no time; beyond, the machine swings on without events.
     LossOfContact {
-        /// The stop.
+        /// The stop or joint.
         stop: usize,
         /// Where in the cycle of an oscillator.
         detail: Option<EventDetail>,

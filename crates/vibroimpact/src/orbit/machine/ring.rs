@@ -357,13 +357,13 @@ impl MachineRing {
         product.map(|product| frame.across_cycles(product, &self.place(0)))
     }
 
-    /// The rounding error of the monodromy matrix, in units of the largest coordinates and velocities at the events.
+    /// The rounding error of the monodromy matrix, in units of the largest coordinates and velocities at the events and in the middles
+    /// of the flights: at its events a machine with friction alone has no velocity but for rounding.
     pub(crate) fn rounding(&self, frame: &MachineFrame<'_>, monodromy: &Matrix) -> f64 {
-        let largest = |(x, v): (f64, f64), k| {
-            let (size, speed) = frame.sizes(&self.place(k));
-            (x.max(size), v.max(speed))
-        };
-        frame.rounding(monodromy, self.len(), (0..self.len()).fold((0.0, 0.0), largest))
+        let between = (0..self.len()).filter_map(|k| self.middle_of(frame, k));
+        let sizes = (0..self.len()).map(|k| self.place(k)).chain(between).map(|place| frame.sizes(&place));
+        let largest = |(x, v): (f64, f64), (size, speed): (f64, f64)| (x.max(size), v.max(speed));
+        frame.rounding(monodromy, self.len(), sizes.fold((0.0, 0.0), largest))
     }
 
     /// Whether the second half of the events repeats the first, to within 3e-4 of the sizes of the motion.
@@ -439,9 +439,14 @@ impl MachineRing {
         // in the middle of the longest flight a state is as far from events as it can be
         let time = |k: usize| self.time(k, frame.machine);
         let longest = (0..self.len()).max_by(|a, b| time(*a).total_cmp(&time(*b)))?;
-        let mut from = self.place(longest);
+        Some((longest, self.middle_of(frame, longest)?))
+    }
+
+    /// The state in the middle of the flight after event `k`.
+    fn middle_of(&self, frame: &MachineFrame<'_>, k: usize) -> Option<Place> {
+        let mut from = self.place(k);
         frame.constrain(&mut from)?;
         let structure: Arc<Structure> = frame.structure(&from.states)?;
-        Some((longest, frame.moved(&from, &structure, 0.5 * time(longest))))
+        Some(frame.moved(&from, &structure, 0.5 * self.time(k, frame.machine)))
     }
 }

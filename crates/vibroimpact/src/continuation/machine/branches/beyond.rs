@@ -13,9 +13,10 @@ use super::summed::same_in_turn;
 use super::through::{forward, with_ring};
 use crate::continuation::branches::BranchOptions;
 use crate::continuation::trace::equations::{Equations, correct, tangent, unit};
-use crate::continuation::trace::tracer::{Tracer, last};
+use crate::continuation::trace::tracer::{Problem as _, Tracer, last};
 use crate::events::Place;
 use crate::machine::Machine;
+use crate::math::root;
 use crate::orbit::{Chatter, MachineFrame, MachineRing, machine::Cycle, passing};
 
 /// How far beyond a change the motion is followed, in the scale of the number: little, so that no other event lies between.
@@ -137,6 +138,22 @@ pub(super) fn across(
         let next = ways.min_by(|a, b| far(a).total_cmp(&far(b)))?;
         Some((next, continues))
     })
+}
+
+/// Cycles that were found a little beyond a number, from there or from where they begin to exist: how far beyond they were looked for says
+/// nothing of them. As they are if they do not go on to it.
+pub(super) fn from_first(next: Tracer<MachineProblem>, number: f64, options: &BranchOptions) -> Tracer<MachineProblem> {
+    let found = last(&next.here.w);
+    let near = 2.0 * A_LITTLE[A_LITTLE.len() - 1] * next.problem.equations.scales[0];
+    let solution = |value: f64| next.on_end(&next.here.w, value).map(|(w, _)| w);
+    let exists =
+        |value: f64| solution(value).and_then(|w| next.problem.known(&w)).is_some_and(|known| known.physical());
+    let first = || {
+        let value = if exists(number) { number } else { root::border(found, number, exists).0 };
+        begun(next.problem.clone(), &solution(value)?, value, last(&next.here.tangent).signum(), *options)
+    };
+    let first = if (found - number).abs() <= near { first() } else { None };
+    first.filter(|first| first.here.known.physical()).unwrap_or(next)
 }
 
 /// Follows cycles that are not admissible to the first one that is.

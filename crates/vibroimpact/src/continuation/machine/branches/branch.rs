@@ -1,12 +1,13 @@
 //! The branch of a cycle of a machine in one of its numbers.
 
 use super::beginning::begun;
-use super::beyond::{across, apart, replayed, same_beyond};
+use super::beyond::{across, apart, from_first, replayed, same_beyond};
 use super::change::Difference;
 use super::complete_chatter::{ADAPTED, CompleteChatter};
 use super::equations::MachineEquations;
 use super::explained::{explained, same_events};
 use super::family::Family;
+use super::joined::SHORT;
 use super::meeting::meeting;
 use super::point::{SolutionPoint, without_speed};
 use super::problem::{Judged, MachineProblem, MachineSolution};
@@ -14,7 +15,7 @@ use super::rest_for_ever::rest_for_ever;
 use super::step::{NEARBY, off_circle};
 use super::struck::struck;
 use super::test_functions::TestFunction;
-use super::through::{through_ending, through_grazing, through_turn, with_ring};
+use super::through::{through_ending, through_grazing, through_hold, through_turn, with_ring};
 use crate::continuation::branches::{BranchError, BranchOptions, Direction, scale};
 use crate::continuation::event::BranchEvent;
 use crate::continuation::trace::driver::{Driver, Path};
@@ -155,6 +156,23 @@ impl EventBranch {
         stops.filter(|_| all).min()
     }
 
+    /// Whether a cycle loses its only events with a hold that takes no time any more: the machine swings on without events, which is no
+    /// ring.
+    fn fades(&self, at: &MachineSolution, found: &Difference) -> bool {
+        let (ring, stops) = (&self.tracer.problem.equations.ring, |event: &RingEvent| event.back.len());
+        let Difference::Rest { place, joint: true, begins: false } = *found else { return false };
+        let held = |k: usize| ring.events[k].after[place].constrains();
+        let own = ring.events.iter().all(|event| event.guard.place(stops(event)) == place);
+        own && ring.len() == 2
+            && (0..2).filter(|k| held(*k)).count() == 1
+            && self
+                .tracer
+                .problem
+                .equations
+                .split(&at.w)
+                .is_some_and(|(_, ring)| (0..2).any(|k| held(k) && ring.theta(k + 1) - ring.theta(k) < SHORT))
+    }
+
     /// The corner that it is if an impact appears at the time of another one and no cycle with it exists close by: a contact without
     /// speed would have one.
     fn at_one_time(&self, at: &MachineSolution, found: &Difference) -> Option<Difference> {
@@ -225,6 +243,10 @@ impl EventBranch {
         if let Some(stop) = self.lost(at, found) {
             return self.end(at, BranchEvent::LossOfContact { stop, detail: None });
         }
+        if self.fades(at, found) {
+            let Difference::Rest { place: stop, .. } = *found else { return };
+            return self.end(at, BranchEvent::LossOfContact { stop, detail: None });
+        }
         let of_rest = matches!(found, Difference::Rest { .. } | Difference::Other { .. });
         if of_rest && self.rests(at) {
             return;
@@ -236,6 +258,7 @@ impl EventBranch {
         let changed = (found, &self.path.options);
         let next = next.or_else(|| through_ending(&self.tracer, at, changed));
         let next = next.or_else(|| through_turn(&self.tracer, at, changed));
+        let next = next.or_else(|| through_hold(&self.tracer, at, changed));
         let contact = if next.is_none() { struck(&self.tracer, at, &self.path.options) } else { None };
         let (there, with_contact) = contact.unzip();
         let (at, next) = (there.as_ref().unwrap_or(at), next.or(with_contact));
@@ -338,6 +361,7 @@ impl EventBranch {
         if self.goes_back(&next, number, event) {
             return self.end(at, self.ends(at, event));
         }
+        let next = if landing.is_some() { from_first(next, number, &self.path.options) } else { next };
         self.exchange(next);
         self.add(&self.tracer.here.clone(), landing);
     }

@@ -11,6 +11,7 @@ use super::closest::closest;
 use super::equations::MachineEquations;
 use super::joined::join;
 use super::problem::{MachineProblem, MachineSolution};
+use super::rest::{Limit, limits};
 use super::test_functions::TestFunction;
 use crate::continuation::branches::BranchOptions;
 use crate::continuation::trace::equations::{Equations, correct, tangent, unit};
@@ -243,6 +244,50 @@ pub(super) fn through_turn(
     let (machine, mut ring) = tracer.problem.equations.split(&at.w)?;
     join(&MachineFrame::new(&machine), &mut ring, place).then_some(())?;
     with_the_same_motion(tracer, at, (&machine, ring), options)
+}
+
+/// A limit of a joint below this part of its terms is zero.
+const AT_LIMIT: f64 = 1e-6;
+
+/// The tracer beyond the beginning of a hold: where the joint turns back its limit is zero, so the motion is also that of a cycle whose joint
+/// holds there and slips again at once. The branch goes on where the hold lasts, which can be back along the number.
+pub(super) fn through_hold(
+    tracer: &Tracer<MachineProblem>,
+    at: &MachineSolution,
+    (found, options): (&Difference, &BranchOptions),
+) -> Option<Tracer<MachineProblem>> {
+    let Difference::Rest { place: joint, joint: true, .. } = *found else { return None };
+    let (machine, ring) = tracer.problem.equations.split(&at.w)?;
+    let frame = MachineFrame::new(&machine);
+    let m = ring.len();
+    let turns = |k: usize| {
+        let (before, event) = (&ring.events[(k + m - 1) % m], &ring.events[k]);
+        matches!(event.guard, GuardKind::Sliding(of) if machine.stops().len() + of == joint)
+            && !before.after[joint].constrains()
+            && !event.after[joint].constrains()
+            && before.after[joint] != event.after[joint]
+    };
+    let zero = |(value, limit): &(f64, Limit)| value.abs() < AT_LIMIT && turns(limit.at);
+    let mut zeros: Vec<Limit> = limits(&frame, &ring, joint).into_iter().filter(zero).map(|(_, limit)| limit).collect();
+    // from the last to the first, so that the places of earlier events stay valid
+    sort_by(&mut zeros, |a, b| b.at.cmp(&a.at));
+    zeros.dedup_by_key(|limit| limit.at);
+    let mut next = ring.clone();
+    for Limit { at, states, guard } in &zeros {
+        let (event, state) = (&ring.events[*at], &ring.places[*at]);
+        next.insert(at + 1, RingEvent::touch(*guard, &event.after, event.back.clone()), state.clone());
+        next.events[*at].after.clone_from(states);
+        next.places[*at].states.clone_from(states);
+    }
+    let problem = with_ring(tracer, &machine, next, at.known.cycle.as_ref()?.sizes);
+    let w = MachineEquations::join(&machine, &problem.equations.ring, [last(&at.w)]);
+    let width = frame.shape.size() + 1;
+    let mut row = vec![0.0; w.len()];
+    for (more, Limit { at, .. }) in zeros.iter().rev().enumerate() {
+        row[(at + more) * width] -= 1.0;
+        row[(at + more + 1) * width] += 1.0;
+    }
+    (!zeros.is_empty()).then(|| first_step_either_way(&problem, &w, &row, options))?
 }
 
 /// Without the impacts or contacts `gone`, whose speed is zero. What is left can be several times a shorter cycle.
