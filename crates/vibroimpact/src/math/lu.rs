@@ -8,6 +8,8 @@ pub(crate) struct Lu {
     rows: Vec<f64>,
     /// The row used as pivot at each step.
     pivots: Vec<usize>,
+    /// The factors of the rows and of the columns, if it is balanced.
+    scales: Option<(Vec<f64>, Vec<f64>)>,
 }
 
 impl Lu {
@@ -47,10 +49,28 @@ impl Lu {
                 }
             }
         }
-        Some(Self { n, rows, pivots })
+        Some(Self { n, rows, pivots, scales: None })
     }
 
-    /// The determinant, with the sign of the row exchanges.
+    /// The same of a matrix whose unknowns have these units, and its rows those that `unit` tells; another row has its largest element as its
+    /// unit. So the choice of pivots depends on no unit. All units are taken as powers of two: nothing is rounded.
+    pub(crate) fn balanced(mut rows: Vec<f64>, units: &[f64], unit: impl Fn(usize) -> Option<f64>) -> Option<Self> {
+        let power = |x: f64| libm::ldexp(1.0, libm::ilogb(x));
+        let columns: Vec<f64> = units.iter().map(|unit| power(*unit)).collect();
+        let n = columns.len();
+        let mut factors = Vec::with_capacity(n);
+        for (i, row) in rows.chunks_exact_mut(n).enumerate() {
+            row.iter_mut().zip(&columns).for_each(|(element, unit)| *element *= unit);
+            let largest = || row.iter().fold(0.0_f64, |most, element| most.max(element.abs()));
+            let own = unit(i).unwrap_or_else(largest);
+            let factor = if own > 0.0 && own.is_finite() { 1.0 / power(own) } else { 1.0 };
+            row.iter_mut().for_each(|element| *element *= factor);
+            factors.push(factor);
+        }
+        Some(Self { scales: Some((factors, columns)), ..Self::new(rows, n)? })
+    }
+
+    /// The determinant, with the sign of the row exchanges; of a balanced matrix that with its factors, which has the same sign.
     pub(crate) fn determinant(&self) -> f64 {
         let exchanges = self.pivots.iter().enumerate().filter(|(k, pivot)| k != *pivot).count();
         let product: f64 = (0..self.n).map(|k| self.rows[k * self.n + k]).product();
@@ -59,6 +79,13 @@ impl Lu {
 
     /// Replaces the right side `x` by the solution.
     pub(crate) fn solve(&self, x: &mut [f64]) {
+        let Some((rows, columns)) = &self.scales else { return self.substitute(x) };
+        x.iter_mut().zip(rows).for_each(|(x, factor)| *x *= factor);
+        self.substitute(x);
+        x.iter_mut().zip(columns).for_each(|(x, factor)| *x *= factor);
+    }
+
+    fn substitute(&self, x: &mut [f64]) {
         let n = self.n;
         // whole rows were exchanged, with their multipliers, so all exchanges come first
         for (k, &pivot) in self.pivots.iter().enumerate() {

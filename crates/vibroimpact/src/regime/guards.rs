@@ -38,6 +38,11 @@ impl GuardKind {
             Self::Sliding(joint) | Self::LimitForward(joint) | Self::LimitBackward(joint) => stops + joint,
         }
     }
+
+    /// Whether it is a force, and not a way or a velocity.
+    pub(crate) const fn of_force(self) -> bool {
+        !matches!(self, Self::Gap(_) | Self::Depth(_) | Self::Sliding(_))
+    }
 }
 
 /// A guard: a linear function of the state that is positive as long as the regime holds.

@@ -112,6 +112,13 @@ impl Normal {
         }
     }
 
+    /// The largest way and velocity along a stop or joint, in the units of the machine, of a motion whose mass-normalised coordinates and
+    /// velocities have these sizes.
+    pub(crate) fn along(&self, contact: usize, (size, speed): (f64, f64)) -> (f64, f64) {
+        let length = self.squares[contact].sqrt();
+        (length * size, length * speed)
+    }
+
     /// Coordinates, or velocities, from the mass-normalised ones.
     #[inline]
     pub(crate) fn to_machine(&self, x: &[f64]) -> Vec<f64> {

@@ -361,3 +361,17 @@ fn what_cannot_be_followed() {
     assert_eq!(curve.map(|_| ()), Err(BranchError::Rests));
     assert!(matches!(settle(&two, Start::at_rest(&two), &SettleOptions::default()).verdict, Verdict::Periodic(_)));
 }
+
+/// With restitution 0 the mass stays on the stop if the force does not pull it away at once. With any other one the impact throws it off: a
+/// branch over the restitution that begins at 0 goes on where that force is zero.
+#[test]
+fn an_impact_with_a_rebound_needs_no_force() {
+    let osc = Oscillator::new(2.887, 0.211, 0.0).unwrap().with_damping(0.1).unwrap();
+    let found = find(&osc, Label::new(1, 2), FindOptions::default());
+    let stable = found.iter().find(|orbit| orbit.cycle.stable()).unwrap();
+    let vary = Parameter::Restitution;
+    let branch = Branch::new(&osc, &stable.cycle, vary, 0.0..=0.885, Direction::Up, BranchOptions::default()).unwrap();
+    let points: Vec<SolutionPoint> = branch.collect();
+    assert_eq!(events(&points), [(0.885, BranchEvent::EndOfRange)]);
+    assert!(points.iter().all(|point| point.physical && point.stable()));
+}

@@ -18,7 +18,8 @@ pub(crate) fn den_hartog(beta: f64, friction: f64) -> Machine {
         .with_link(&[1.0], 1.0, 0.0)
         .with_frequency(beta)
         .with_force(0, 1, 1.0, 0.0)
-        .with_joint("floor", &[1.0], friction, friction, 0.0);
+        // derivatives by the friction ask for values beyond its range too
+        .with_joint("floor", &[1.0], friction.max(0.0), friction.max(0.0), 0.0);
     Machine::new(parts).unwrap()
 }
 
@@ -209,8 +210,9 @@ fn rests(
     let family = Family::new(move |value| Some(make(value)));
     let range = range.0..=range.1;
     let branch = Branch::new((&family, from), &cycle, &range, direction, BranchOptions::default()).unwrap();
+    use BranchEvent::{Holding, RestForEver, Sticking};
     let of_rest =
-        |point: &SolutionPoint| matches!(point.event, Some(BranchEvent::Sticking { .. } | BranchEvent::Holding { .. }));
+        |point: &SolutionPoint| matches!(point.event, Some(Sticking { .. } | Holding { .. } | RestForEver { .. }));
     branch.filter(of_rest).collect()
 }
 
@@ -231,7 +233,8 @@ fn with_second_harmonic(beta: f64, friction: f64, second: f64) -> Machine {
         .with_frequency(beta)
         .with_force(0, 1, 1.0, 0.0)
         .with_force(0, 2, 0.3 * second, 0.4 * second)
-        .with_joint("floor", &[1.0], friction, friction, 0.0);
+        // derivatives by the friction ask for values beyond its range too
+        .with_joint("floor", &[1.0], friction.max(0.0), friction.max(0.0), 0.0);
     Machine::new(parts).unwrap()
 }
 

@@ -20,7 +20,8 @@ pub(crate) enum TestFunction {
     Clear(usize, Side),
     /// The distance of the motion without impacts from a stop.
     Room(Side),
-    /// With restitution 0: the force that pulls the mass away from the stop after an impact.
+    /// With restitution 0: the force that pulls the mass away from the stop after an impact. With another one, as along a branch over the
+    /// restitution that begins at 0, the impact itself does.
     Pull(usize),
 }
 
@@ -61,10 +62,10 @@ impl TestFunction {
             Self::Speed(k) => ring.speed(k),
             Self::Clear(k, side) => closest(osc, ring, k, side).map_or(f64::INFINITY, |closest| closest.distance),
             Self::Room(side) => room(osc, side),
-            Self::Pull(k) => {
-                let gap = osc.stop(ring.side(k)).map_or(0.0, |stop| stop.gap);
-                gap - ring.side(k).sign() * sin_cos(ring.theta(k)).0
-            }
+            Self::Pull(k) => osc
+                .stop(ring.side(k))
+                .filter(|stop| stop.restitution == 0.0)
+                .map_or(f64::INFINITY, |stop| stop.gap - ring.side(k).sign() * sin_cos(ring.theta(k)).0),
         }
     }
 }

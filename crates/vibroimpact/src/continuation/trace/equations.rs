@@ -20,6 +20,11 @@ pub(crate) trait Equations {
     /// `None` where the equations are not defined.
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)>;
 
+    /// The factors of the derivatives with the last row.
+    fn factors(&self, rows: Vec<f64>) -> Option<Lu> {
+        Lu::new(rows, self.weights().len())
+    }
+
     /// The weighted inner product of two vectors.
     fn dot(&self, a: &[f64], b: &[f64]) -> f64 {
         self.weights().iter().zip(a.iter().zip(b)).map(|(w, (a, b))| w * a * b).sum()
@@ -69,7 +74,7 @@ pub(crate) fn corrected<E: Equations>(
         rows[width * (width - 1)..].copy_from_slice(row);
         let off: f64 = row.iter().zip(&w).map(|(r, w)| r * w).sum::<f64>() - level;
         let mut change: Vec<f64> = miss.iter().map(|m| -m).chain([-off]).collect();
-        let factors = Lu::new(rows, width)?;
+        let factors = equations.factors(rows)?;
         factors.solve(&mut change);
         let size = equations.length(&change);
         if size.is_nan() || size > ASTRAY {
@@ -92,7 +97,7 @@ pub(crate) fn tangent<E: Equations>(equations: &E, w: &[f64], row: &[f64]) -> Op
     let width = w.len();
     let (_, mut rows) = equations.at(w)?;
     rows[width * (width - 1)..].copy_from_slice(row);
-    tangent_of(equations, &Lu::new(rows, width)?, width)
+    tangent_of(equations, &equations.factors(rows)?, width)
 }
 
 /// The same for the factors of derivatives with such a row, for so many unknowns.

@@ -120,7 +120,7 @@ impl Chatter {
         let Some(Rebound { speed, a, .. }) = rebound.filter(|rebound| rebound.a > 0.0) else {
             return f64::INFINITY;
         };
-        let (size, fastest) = frame.sizes(&ring.place(k));
+        let (size, fastest) = frame.normal.along(self.stop, frame.sizes(&ring.place(k)));
         let frequency = ring.frequency(frame.machine);
         // v^2/2a for the time 2v/a
         speed * speed * speed / (a * a) * frequency / size.max(fastest / frequency)

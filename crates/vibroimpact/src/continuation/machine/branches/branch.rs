@@ -182,7 +182,7 @@ impl EventBranch {
         let second = ring.events[event].guard.place(machine.stops().len());
         let gap = place.gap(&normal, &place.turns(&normal), stop).0;
         let corner = Difference::Corner { first: stop, second };
-        (gap.abs() < AT_ONCE * sizes.0 && self.order_matters(at, (stop, second))).then_some(corner)
+        (gap.abs() < AT_ONCE * normal.along(stop, sizes).0 && self.order_matters(at, (stop, second))).then_some(corner)
     }
 
     /// Whether it is a corner of two impacts that lead elsewhere in the other order: both stops are rigid, an impact on one changes
@@ -231,8 +231,9 @@ impl EventBranch {
     /// Reports that these test functions are zero at `at` and goes on with the events beyond.
     pub(super) fn graze(&mut self, at: &MachineSolution, zeros: &[TestFunction]) {
         let ring = &self.tracer.problem.equations.ring;
-        let rate = zeros.iter().find(|zero| matches!(zero, TestFunction::Rate(_)));
-        let zero = rate.or(zeros.first()).and_then(|zero| zero.difference(ring));
+        // of several at once what disappears comes first, and then the order of the stops, which rounding does not change
+        let order = |zero: &&TestFunction| zero.order(ring);
+        let zero = zeros.iter().min_by_key(order).and_then(|zero| zero.difference(ring));
         let found = zero.unwrap_or(Difference::Other { place: None });
         let next = through_grazing(&self.tracer, at, zeros, &self.path.options);
         self.pass(at, &found, next);

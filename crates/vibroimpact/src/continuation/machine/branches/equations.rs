@@ -4,6 +4,7 @@ use super::family::Family;
 use crate::continuation::trace::equations::Equations;
 use crate::events::StateShape;
 use crate::machine::{Machine, RateGrid};
+use crate::math::Lu;
 use crate::orbit::{MachineFrame, MachineRing};
 use core::f64::consts::TAU;
 
@@ -122,6 +123,14 @@ fn weights(machine: &Machine, ring: &MachineRing, sizes: (f64, f64)) -> Vec<f64>
 impl<const N: usize> Equations for MachineEquations<N> {
     fn weights(&self) -> &[f64] {
         &self.weights
+    }
+
+    // the units of a machine are those of the user
+    fn factors(&self, rows: Vec<f64>) -> Option<Lu> {
+        let units: Vec<f64> = self.weights.iter().map(|weight| 1.0 / weight.sqrt()).collect();
+        let (states, width) = (units.len() - N, (units.len() - N) / self.ring.len());
+        // an event has a row for its guard and one for each component of the state after it
+        Lu::balanced(rows, &units, |row| (row < states && row % width != 0).then(|| units[row]))
     }
 
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {

@@ -196,7 +196,7 @@ impl Problem for MachineProblem {
                 TestFunction::PlusOne => plus_one,
                 TestFunction::MinusOne => minus_one,
                 TestFunction::Torus => torus,
-                TestFunction::Rate(k) => rate(frame, ring, &blocks[(k + m - 1) % m], self.sizes.1),
+                TestFunction::Rate(k) => rate(frame, ring, (k, &blocks[(k + m - 1) % m]), self.sizes.1),
                 TestFunction::Clearance(leg, guard) => {
                     let leg = legs[leg].get_or_init(|| Leg::new(frame, ring, leg)).as_ref();
                     clearance(frame, leg, guard, self.sizes)
@@ -219,7 +219,9 @@ impl Problem for MachineProblem {
         let frame = MachineFrame::new(&machine);
         let m = ring.len();
         match test {
-            TestFunction::Rate(k) => Some(rate(&frame, &ring, &ring.block(&frame, (k + m - 1) % m)?, self.sizes.1)),
+            TestFunction::Rate(k) => {
+                Some(rate(&frame, &ring, (k, &ring.block(&frame, (k + m - 1) % m)?), self.sizes.1))
+            }
             TestFunction::Clearance(leg, guard) => {
                 Some(clearance(&frame, Leg::new(&frame, &ring, leg).as_ref(), guard, self.sizes))
             }

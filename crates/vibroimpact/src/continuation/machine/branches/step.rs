@@ -12,7 +12,7 @@ use super::test_functions::TestFunction;
 use crate::continuation::event::BranchEvent;
 use crate::continuation::trace::equations::Equations;
 use crate::continuation::trace::tracer::{Crossing, Problem, Step, last};
-use crate::math::{Lu, Multiplier, root};
+use crate::math::{Multiplier, root};
 use crate::orbit::RingEvent;
 use crate::regime::GuardKind;
 
@@ -121,7 +121,7 @@ impl EventBranch {
         let (mut found, [mut admissible, mut rounded]) = (None, HALVINGS);
         while rounded - admissible > 1 {
             let halvings = i32::midpoint(admissible, rounded);
-            let place = s - step.length * 2.0_f64.powi(-halvings);
+            let place = s - libm::ldexp(step.length, -halvings);
             let at = (place > 0.0).then(|| self.tracer.at(step, place)).flatten();
             match at.filter(|at| at.known.physical()) {
                 Some(at) => (found, admissible) = (Some(at), halvings),
@@ -138,7 +138,7 @@ impl EventBranch {
         let (_, mut rows) = equations.at(&at.w)?;
         let length = at.w.len();
         rows[length * (length - 1)..].copy_from_slice(&equations.row(&at.tangent));
-        Some(Lu::new(rows, length)?.determinant())
+        Some(equations.factors(rows)?.determinant())
     }
 
     /// The distance along a step at which another curve of solutions crosses, near `s`; `None` if none does.

@@ -56,8 +56,9 @@ pub(super) fn struck(
         // among the impacts of a chatter a gap is as small, but the largest one, and during a hold it does not change
         let (least, _) = frame.gap(&ring.place(k), stop);
         let (before, short) = ((k + m - 1) % m, EARLY[0] / ring.frequency(machine));
-        let rises = |to: Option<f64>| to.is_some_and(|to| to > least + LEAST * sizes.0);
-        least.abs() < TOUCHING * sizes.0
+        let (size, _) = frame.normal.along(stop, sizes);
+        let rises = |to: Option<f64>| to.is_some_and(|to| to > least + LEAST * size);
+        least.abs() < TOUCHING * size
             && rises(beside(k, short))
             && rises(beside(before, ring.time(before, machine) - short))
     };

@@ -47,7 +47,7 @@ const SLOWER: f64 = 1e-3;
 /// The grazing contact of a cycle with a chatter on `stop`: a flight that touches the stop, or an impact of speed zero, which is
 /// slower than the next one. `sizes` are those of its coordinates and velocities.
 fn grazes(frame: &MachineFrame<'_>, ring: &MachineRing, stop: usize, sizes: (f64, f64)) -> Option<Difference> {
-    let m = ring.len();
+    let (m, sizes) = (ring.len(), frame.normal.along(stop, sizes));
     let near = |leg: &usize| {
         closest(frame, ring, (*leg, GuardKind::Gap(stop))).is_some_and(|(gap, _)| gap.abs() < NEAR * sizes.0)
     };

@@ -72,18 +72,38 @@ impl TestFunction {
             _ => None,
         }
     }
+
+    /// Whether it is that of a flight, and the stop or joint.
+    pub(super) fn order(self, ring: &MachineRing) -> (bool, usize) {
+        let place = |guard: GuardKind| guard.place(ring.events[0].back.len());
+        match self {
+            Self::Rate(at) => (false, place(ring.events[at].guard)),
+            Self::Clearance(_, guard) => (true, place(guard)),
+            _ => (true, usize::MAX),
+        }
+    }
 }
 
-/// The rate, in units of the largest velocity and the frequency, at which the guard at the end of a flight falls.
-pub(crate) fn rate(frame: &MachineFrame<'_>, ring: &MachineRing, flight: &MachineBlock, largest: f64) -> f64 {
-    -flight.late[0] * ring.frequency(frame.machine) / largest
+/// The rate, in units of the largest velocity or acceleration along the contact, at which the guard of event `k` falls at the end of the
+/// flight before it; `largest` is the largest velocity.
+pub(crate) fn rate(
+    frame: &MachineFrame<'_>,
+    ring: &MachineRing,
+    (k, flight): (usize, &MachineBlock),
+    largest: f64,
+) -> f64 {
+    let guard = ring.events[k].guard;
+    let length = frame.normal.along(guard.place(frame.machine.stops().len()), (1.0, 1.0)).1;
+    // a force along a contact accelerates the mass-normalised coordinates by it times the length of the direction
+    let unit = if guard.of_force() { 1.0 / length } else { length };
+    -flight.late[0] * ring.frequency(frame.machine) / (largest * unit)
 }
 
 /// The smallest value of a guard on a flight, relative to the largest coordinate, to the largest velocity, or to the terms of a
 /// force; infinite if it does not turn there.
 pub(crate) fn clearance(frame: &MachineFrame<'_>, leg: Option<&Leg<'_>>, guard: GuardKind, sizes: (f64, f64)) -> f64 {
     leg.and_then(|leg| leg.closest(guard)).map_or(f64::INFINITY, |(value, place)| match guard {
-        GuardKind::Gap(_) | GuardKind::Depth(_) => value / sizes.0,
+        GuardKind::Gap(stop) | GuardKind::Depth(stop) => value / frame.normal.along(stop, sizes).0,
         _ => value / size(frame, &place, guard, sizes.1),
     })
 }

@@ -61,12 +61,16 @@ impl Origin<'_> {
             BranchEvent::Flip => Ok((CurveKind::Flip, ring, singular)),
             BranchEvent::Torus => self.torus(ring).ok_or(BranchError::NoCycle),
             BranchEvent::Grazing { stop, appears: true, .. } => self.appearing(ring, stop),
-            BranchEvent::Grazing { stop, .. } => self.disappearing(&ring, stop, NEAR * self.point.cycle.sizes.1),
+            BranchEvent::Grazing { stop, .. } => self.disappearing(&ring, stop, NEAR * self.along(stop).1),
             // an only closing is the one that disappears, whatever its speed beside the event
             BranchEvent::LossOfContact { stop, .. } => self.disappearing(&ring, stop, f64::INFINITY),
             BranchEvent::Corner { first, second } => self.corner(ring, [first, second]).ok_or(BranchError::NoCycle),
             BranchEvent::Sticking { stop, .. } => self.resting(ring, stop, CurveKind::Sticking { stop }),
             BranchEvent::Holding { joint, .. } => self.resting(ring, joint, CurveKind::Holding { joint }),
+            // where the joint slips no more, its hold begins to last for ever
+            BranchEvent::RestForEver { stop: joint } if joint >= self.machine.stops().len() => {
+                self.resting(ring, joint, CurveKind::Holding { joint })
+            }
             _ => Err(BranchError::NotThere),
         }
     }
@@ -75,7 +79,8 @@ impl Origin<'_> {
     /// rounding can let that end at a limit, or miss a stop that it grazes; then it is that of a value beside it.
     fn ring(&self, event: BranchEvent) -> Option<MachineRing> {
         // where a rest begins, the solution can be that without it
-        let rests = matches!(event, BranchEvent::Sticking { .. } | BranchEvent::Holding { .. });
+        use BranchEvent::{Holding, RestForEver, Sticking};
+        let rests = matches!(event, Sticking { .. } | Holding { .. } | RestForEver { .. });
         let solved = self.point.ring.clone().filter(|_| !rests).or_else(|| self.followed(self.machine));
         solved.or_else(|| self.beside().chain(self.farther()).next())
     }
@@ -113,9 +118,14 @@ impl Origin<'_> {
         Some((CurveKind::Torus, ring, Condition::Pair { cosine }))
     }
 
+    /// The largest way and velocity along a stop.
+    fn along(&self, stop: usize) -> (f64, f64) {
+        self.frame.normal.along(stop, self.point.cycle.sizes)
+    }
+
     fn touch(&self, stop: usize, ring: MachineRing, at: usize) -> Beginning {
-        let speed = self.point.cycle.sizes.1;
-        (CurveKind::Grazing { stop }, ring, Condition::Touch { at, size: speed, contact: None, speed })
+        let (size, speed) = (self.along(stop).1, self.point.cycle.sizes.1);
+        (CurveKind::Grazing { stop }, ring, Condition::Touch { at, size, contact: None, speed })
     }
 
     /// That of a grazing contact which appears: a touch in the flight that comes closest to the stop.
@@ -124,7 +134,7 @@ impl Origin<'_> {
         // by rounding the motion can have the impact that appears here
         let mut rings = core::iter::once(ring).chain(self.beside());
         let ((leg, (gap, place)), mut ring) = rings.find_map(touched).ok_or(BranchError::NoCycle)?;
-        if gap.abs() > NEAR * self.point.cycle.sizes.0 {
+        if gap.abs() > NEAR * self.along(stop).0 {
             return Err(BranchError::NotThere);
         }
         let back = place.surfaces.iter().map(Option::is_some).collect();
