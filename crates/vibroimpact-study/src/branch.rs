@@ -72,9 +72,6 @@ impl<V> BranchPlan<V> {
 
 impl<V: Name> BranchPlan<V> {
     /// Checks everything that can be checked without running the plan.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value.
     pub(crate) fn check<D: Dynamics<Name = V>>(&self, of: &Setup<'_, D>) -> Result<(), PlanError> {
         of.check_orbit((self.label.as_deref(), self.orbit), false)?;
         let start = of.written.number(&self.vary)?;

@@ -336,9 +336,6 @@ impl OscillatorText {
     }
 
     /// The system in nondimensional numbers.
-    ///
-    /// # Errors
-    /// [`PlanError::Missing`] with the numbers that are neither given nor vary.
     fn nondimensional(&self, varied: &[(Parameter, f64)]) -> Result<SystemPlan, PlanError> {
         let varies = |parameter| varied.iter().any(|(other, _)| *other == parameter);
         let needed = [(Parameter::Gap, self.gap), (Parameter::Restitution, self.restitution)];

@@ -14,9 +14,6 @@ use vibroimpact::verdict::{Census, CountedMotion, System, Undecided, UndecidedCa
 const TILE: u32 = 8192;
 
 /// Settles every start of the basin of one system, without refinement.
-///
-/// # Errors
-/// [`RunError`] for an invalid plan, for a plan that varies parameters, or when stopped.
 pub(crate) fn basin(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>) -> Result<Basin, RunError> {
     in_tiles(system, plan, control, TILE)
 }
@@ -46,9 +43,6 @@ fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: 
 }
 
 /// The same of a machine.
-///
-/// # Errors
-/// [`RunError`] for an invalid plan, or when stopped.
 pub(crate) fn machine_basin(
     problem: (&Machine, &Start),
     plan: &BasinPlan<String, String>,

@@ -145,8 +145,7 @@ impl Body {
     }
 
     /// Whether only a force acts on the body.
-    #[must_use]
-    pub const fn is_plain(&self) -> bool {
+    pub(crate) const fn is_plain(&self) -> bool {
         !self.is_shaken() && self.constant_force_n.is_none() && self.gravity_m_per_s2.is_none()
     }
 
@@ -158,11 +157,7 @@ impl Body {
     }
 
     /// The same in the one form in which it is stored.
-    ///
-    /// # Errors
-    /// [`PlanError::Missing`] names all numbers that are absent; [`PlanError::TwoForms`] names two forms of one
-    /// number, and [`PlanError::StopAndBase`] a stop that moves beside a base that does.
-    pub fn complete(&self) -> Result<Self, PlanError> {
+    pub(crate) fn complete(&self) -> Result<Self, PlanError> {
         let force_n = self.driving_force();
         let needed = [
             ("mass_kg", self.mass_kg),
@@ -228,8 +223,7 @@ impl Body {
     }
 
     /// The angular frequency of what drives the body, in rad/s.
-    #[must_use]
-    pub fn omega(&self) -> f64 {
+    pub(crate) fn omega(&self) -> f64 {
         self.frequency_hz.map(|hertz| TAU * hertz).or(self.omega_rad_per_s).unwrap_or(f64::NAN)
     }
 
@@ -246,15 +240,13 @@ impl Body {
     }
 
     /// The damping ratio.
-    #[must_use]
-    pub fn damping_ratio(&self) -> f64 {
+    pub(crate) fn damping_ratio(&self) -> f64 {
         let by_coefficient = || self.damping_ns_per_m.unwrap_or(0.0) / (2.0 * self.impedance());
         self.direct_ratio().unwrap_or_else(by_coefficient)
     }
 
     /// The coefficient of the damper in N s/m.
-    #[must_use]
-    pub fn damping_coefficient(&self) -> f64 {
+    pub(crate) fn damping_coefficient(&self) -> f64 {
         self.damping_ns_per_m.unwrap_or_else(|| 2.0 * self.direct_ratio().unwrap_or(0.0) * self.impedance())
     }
 
@@ -314,8 +306,7 @@ impl Body {
 
     /// The numbers of the machine that the body is, in the frame of its stop: the coordinate is the distance $`x - r`$ from its
     /// motion. They are not checked.
-    #[must_use]
-    pub fn one_coordinate(&self) -> OneCoordinate {
+    pub(crate) fn one_coordinate(&self) -> OneCoordinate {
         let [m, k, gap, e] =
             [self.mass_kg, self.stiffness_n_per_m, self.gap_m, self.restitution].map(|value| value.unwrap_or(f64::NAN));
         let c = self.damping_coefficient();
@@ -470,8 +461,7 @@ impl Body {
     }
 
     /// The value of a parameter, of its own or of its oscillator; `None` if it does not have it.
-    #[must_use]
-    pub fn value(&self, parameter: Parameter) -> Option<f64> {
+    pub(crate) fn value(&self, parameter: Parameter) -> Option<f64> {
         match (parameter, parameter.of_oscillator()) {
             (Parameter::Body(number), _) => number.get(self),
             (_, of) => of?.get(&self.reduction().ok()?.oscillator),
@@ -485,11 +475,11 @@ impl Body {
     /// The line along which a parameter varies, and all other numbers of the body do not, but for one that changes by a
     /// rate when the parameter changes by 1. The numbers of the oscillator change together: with the mass, the frequency
     /// ratio and, for a given damping coefficient, the damping ratio.
-    ///
-    /// # Errors
-    /// [`SystemError::NoSecondStop`] for a parameter that the body does not have, [`SystemError::Together`] for two that
-    /// are the same, [`SystemError::Rate`] for a rate that is not finite.
-    pub fn line(self, parameter: Parameter, also: Option<(Parameter, f64)>) -> Result<ParameterPath, SystemError> {
+    pub(crate) fn line(
+        self,
+        parameter: Parameter,
+        also: Option<(Parameter, f64)>,
+    ) -> Result<ParameterPath, SystemError> {
         let from = self.known(parameter)?;
         let also = match also {
             Some((other, _)) if parameter.same_number(other) => {
@@ -511,19 +501,13 @@ impl Body {
     }
 
     /// The plane in which two parameters vary, and all other numbers of the body do not.
-    ///
-    /// # Errors
-    /// [`SystemError::NoSecondStop`] for a parameter that the body does not have.
-    pub fn plane(self, (first, second): (Parameter, Parameter)) -> Result<ParameterPlane, SystemError> {
+    pub(crate) fn plane(self, (first, second): (Parameter, Parameter)) -> Result<ParameterPlane, SystemError> {
         let at = move |[p, q]: [f64; 2]| Ok(self.with(first, p)?.with(second, q)?.reduction()?.oscillator);
         Ok(OscillatorFamily::new(at, [self.known(first)?, self.known(second)?]).into())
     }
 }
 
 /// Checks that a number is given in one of its forms at most.
-///
-/// # Errors
-/// [`PlanError::TwoForms`] if there are two.
 fn one_of(forms: &[(&'static str, Option<f64>)]) -> Result<(), PlanError> {
     let mut given = forms.iter().filter(|(_, value)| value.is_some());
     match (given.next(), given.next()) {
