@@ -53,6 +53,11 @@ pub(crate) struct PlanText {
     machine: Option<WrittenMachine>,
 }
 
+/// Whether a field has the value that it has when absent, and need not be written.
+pub(crate) fn is_usual<T: Default + PartialEq>(field: &T) -> bool {
+    *field == T::default()
+}
+
 /// The names in a plan that only an oscillator has.
 const OF_OSCILLATORS: [&str; 2] = ["system", "units"];
 /// The names in a plan that only a machine has, besides its table.

@@ -2,14 +2,13 @@
 
 use crate::axis::{self, Axis, Coordinate};
 use crate::machine::StartAxis;
-use crate::map::{check_impacts, check_refine, options};
+use crate::map::{check_impacts, check_refine};
 use crate::name::Renamed;
 use crate::quantity::{Quantity, check_fields};
 use crate::{PlanError, PointsPlan, Span, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::SettleOptions;
 
 /// The starts of a basin: a grid over coordinates of the start, and perhaps over parameters, or points of both.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -60,14 +59,6 @@ impl<V, Q> BasinPlan<V, Q> {
         let fields = self.fields.iter().map(quantity).collect::<Result<_, E>>()?;
         let (start, refine, impacts, transient) = (*start, *refine, *impacts, *transient);
         Ok(BasinPlan { axes, points, start, refine, impacts, fields, transient })
-    }
-}
-
-impl<V, Q> BasinPlan<V, Q> {
-    /// The options with which each start is followed.
-    #[must_use]
-    pub fn options(&self) -> SettleOptions {
-        options(self.impacts)
     }
 }
 

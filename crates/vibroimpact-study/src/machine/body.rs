@@ -15,6 +15,7 @@
 //! A stop on the base has $`r = y`$, and then $`\hat F = m\omega^2 Y e^{i\varphi_y}`$.
 
 use super::BodyNumber;
+use crate::plan_text::is_usual;
 use crate::{Parameter, PlanError};
 use core::f64::consts::TAU;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -73,7 +74,7 @@ pub struct Body {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub base_acceleration_m_per_s2: Option<f64>,
     /// Phase of the base relative to the force, in radians.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "is_usual")]
     pub base_phase: f64,
     /// Whether the stops are fixed in space and do not move with the base.
     #[serde(skip_serializing_if = "core::ops::Not::not")]
@@ -82,7 +83,7 @@ pub struct Body {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stop_displacement_m: Option<f64>,
     /// Phase of the stops relative to the force, in radians.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "is_usual")]
     pub stop_phase: f64,
     /// Rotating unbalance in kg m.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -93,11 +94,6 @@ pub struct Body {
     /// Acceleration of gravity in m/s^2 towards the (first) stop; negative away from it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gravity_m_per_s2: Option<f64>,
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref)] // as serde calls it
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
 }
 
 /// A motion $`A\sin(\omega t + \varphi)`$: its amplitude in m and its phase.

@@ -109,12 +109,6 @@ impl MapPlan {
         Ok(())
     }
 
-    /// The options with which each start is followed.
-    #[must_use]
-    pub fn options(&self) -> SettleOptions {
-        options(self.impacts)
-    }
-
     /// The oscillator at a point, given by its place on each axis. Other parameters are those of `system`.
     ///
     /// # Errors
