@@ -15,9 +15,6 @@ pub(crate) fn remember(program: Option<PathBuf>) {
 }
 
 /// The file of the program.
-///
-/// # Errors
-/// If the operating system does not say which file this process runs.
 pub(crate) fn path() -> Result<PathBuf, Failure> {
     PROGRAM.get().map_or_else(
         || std::env::current_exe().map_err(|error| Failure::Failed(format!("where this program is: {error}"))),

@@ -36,8 +36,7 @@ pub struct Fault {
 }
 
 /// The kind of a fault. Messages that differ only in numbers are of the same kind.
-#[must_use]
-pub fn kind(why: &str) -> String {
+pub(crate) fn kind(why: &str) -> String {
     why.chars().filter(|c| !c.is_ascii_digit()).take(60).collect()
 }
 
@@ -100,7 +99,7 @@ pub fn run<P: Property>(
 static PANIC: Mutex<Option<String>> = Mutex::new(None);
 
 /// Stores the messages of panics within cases, on any thread, for [`run`] instead of printing them.
-pub fn keep_panics() {
+pub(crate) fn keep_panics() {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| match PANIC.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
         Some(kept) if kept.is_empty() => *kept = panic.to_string(),

@@ -44,10 +44,7 @@ pub struct ProcessEnd {
 
 impl ProcessEnd {
     /// The exit code, if it is one of `codes`.
-    ///
-    /// # Errors
-    /// A message if the process was killed or ended with another code.
-    pub fn ended_with(&self, codes: &[i32]) -> Result<i32, String> {
+    pub(crate) fn ended_with(&self, codes: &[i32]) -> Result<i32, String> {
         match self.code {
             Some(code) if codes.contains(&code) => Ok(code),
             Some(code) => Err(format!("exit code {code}: {}", self.stderr)),
@@ -60,8 +57,7 @@ impl ProcessEnd {
 }
 
 /// The command that starts `program` under the limits that a shell can set; without such a shell there are no limits.
-#[must_use]
-pub fn limited(program: &Path, limits: &Limits) -> Command {
+pub(crate) fn limited(program: &Path, limits: &Limits) -> Command {
     if !cfg!(unix) {
         return Command::new(program);
     }
@@ -74,10 +70,7 @@ pub fn limited(program: &Path, limits: &Limits) -> Command {
 }
 
 /// Runs a program in a folder. `scratch` is another folder for its output.
-///
-/// # Errors
-/// If it cannot be started, or its output cannot be stored.
-pub fn run(
+pub(crate) fn run(
     program: &Path,
     args: &[String],
     (folder, scratch): (&Path, &Path),
@@ -127,9 +120,8 @@ fn wait(child: &mut Child, begun: Instant, limits: &Limits) -> io::Result<Option
 }
 
 /// Processor time of a process in seconds; `None` if the system does not provide it.
-#[must_use]
 #[allow(clippy::cast_precision_loss)] // of seconds
-pub fn processor_time(id: u32) -> Option<f64> {
+pub(crate) fn processor_time(id: u32) -> Option<f64> {
     const TICKS: f64 = 100.0;
     let text = std::fs::read_to_string(format!("/proc/{id}/stat")).ok()?;
     // the name of the program, in brackets, may contain blanks

@@ -24,8 +24,7 @@ pub enum Family {
 
 impl Family {
     /// Its share of the time, relative to those of the others.
-    #[must_use]
-    pub const fn weight(self) -> u32 {
+    pub(crate) const fn weight(self) -> u32 {
         match self {
             Self::Commands => 4,
             Self::Plans | Self::Verdicts | Self::Machines => 2,

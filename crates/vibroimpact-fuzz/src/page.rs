@@ -35,10 +35,7 @@ pub struct Page {
 
 impl Page {
     /// Creates a runtime for the requests.
-    ///
-    /// # Errors
-    /// If it cannot be started.
-    pub fn new() -> io::Result<Self> {
+    pub(crate) fn new() -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         Ok(Self { runtime })
     }

@@ -25,10 +25,7 @@ const INSIDE: [&str; 18] = [
 ];
 
 /// Checks a message for users.
-///
-/// # Errors
-/// A description of the fault.
-pub fn sentence(text: &str) -> Result<(), String> {
+pub(crate) fn sentence(text: &str) -> Result<(), String> {
     if text.trim().is_empty() {
         return Err("no sentence says why".to_owned());
     }
@@ -39,10 +36,7 @@ pub fn sentence(text: &str) -> Result<(), String> {
 }
 
 /// Checks that the bytes are one JSON object, which also excludes `NaN` and `Infinity`.
-///
-/// # Errors
-/// The position at which it cannot be parsed.
-pub fn object(bytes: &[u8]) -> Result<Value, String> {
+pub(crate) fn object(bytes: &[u8]) -> Result<Value, String> {
     match serde_json::from_slice::<Value>(bytes) {
         Ok(value) if value.is_object() => Ok(value),
         Ok(_) => Err("the JSON is no object".to_owned()),
@@ -51,10 +45,7 @@ pub fn object(bytes: &[u8]) -> Result<Value, String> {
 }
 
 /// Checks the fields that programs need in the answer to a task.
-///
-/// # Errors
-/// The name of a missing field.
-pub fn answer(task: &str, answer: &Value) -> Result<(), String> {
+pub(crate) fn answer(task: &str, answer: &Value) -> Result<(), String> {
     let fields: &[&str] = match task {
         "settle" => &["system", "start", "motion", "plan"],
         "simulate" => &["system", "start", "events", "end", "plan"],
@@ -87,10 +78,7 @@ pub fn answer(task: &str, answer: &Value) -> Result<(), String> {
 }
 
 /// Checks that all rows of a table have the same number of cells, and no cell is `NaN`.
-///
-/// # Errors
-/// The first row with a fault.
-pub fn table(bytes: &[u8]) -> Result<(), String> {
+pub(crate) fn table(bytes: &[u8]) -> Result<(), String> {
     let text = core::str::from_utf8(bytes).map_err(|_| "the table is no text".to_owned())?;
     let columns = text.lines().next().map_or(0, |head| head.split(',').count());
     for (k, row) in text.lines().enumerate() {
@@ -103,10 +91,7 @@ pub fn table(bytes: &[u8]) -> Result<(), String> {
 }
 
 /// Checks that a figure is complete, and that all its coordinates are numbers.
-///
-/// # Errors
-/// A description of the fault.
-pub fn figure(svg: &str) -> Result<(), String> {
+pub(crate) fn figure(svg: &str) -> Result<(), String> {
     if svg.is_empty() {
         return Ok(());
     }

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 pub type SystemValues = Vec<(&'static str, String)>;
 
 /// An oscillator. One of twelve lacks a parameter or has an invalid value.
-pub fn system() -> BoxedStrategy<SystemValues> {
+pub(crate) fn system() -> BoxedStrategy<SystemValues> {
     let second = prop::option::weighted(0.15, (second_gap(), prop::option::weighted(0.4, restitution())));
     let fault = prop::option::weighted(0.08, (0..4_usize, prop::option::of(odd())));
     (any::<bool>(), ratio(), restitution(), prop::option::weighted(0.3, damping()), second, fault)
@@ -41,7 +41,7 @@ fn second_gap() -> crate::values::ProptestText {
 }
 
 /// A start: `x`, `v` and `phase`, each of them optional.
-pub fn start() -> BoxedStrategy<SystemValues> {
+pub(crate) fn start() -> BoxedStrategy<SystemValues> {
     let x = prop_oneof![6 => (-6.0..1.0_f64).prop_map(typed), 1 => plain()];
     let phase = prop_oneof![
         5 => (0.0..core::f64::consts::TAU).prop_map(typed),
@@ -58,7 +58,7 @@ pub fn start() -> BoxedStrategy<SystemValues> {
 }
 
 /// A parameter with a range of valid values.
-pub fn parameter() -> BoxedStrategy<(&'static str, f64, f64)> {
+pub(crate) fn parameter() -> BoxedStrategy<(&'static str, f64, f64)> {
     prop::sample::select(vec![
         ("inverse_beta", 0.4, 2.0),
         ("beta", 0.4, 2.0),
@@ -72,8 +72,7 @@ pub fn parameter() -> BoxedStrategy<(&'static str, f64, f64)> {
 }
 
 /// The system without the parameters that vary, so that none is given twice.
-#[must_use]
-pub fn without(values: SystemValues, varied: &[&str]) -> SystemValues {
+pub(crate) fn without(values: SystemValues, varied: &[&str]) -> SystemValues {
     let frequency = |name: &str| matches!(name, "beta" | "inverse_beta");
     let same = |a: &str, b: &str| a == b || frequency(a) && frequency(b);
     let mut left: SystemValues =

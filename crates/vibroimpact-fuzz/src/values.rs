@@ -10,13 +10,12 @@ fn one_of(texts: &'static [&'static str]) -> ProptestText {
 }
 
 /// A number as a user types it.
-#[must_use]
-pub fn typed(x: f64) -> String {
+pub(crate) fn typed(x: f64) -> String {
     format!("{x}")
 }
 
 /// A text that is no valid number, or an extreme number.
-pub fn odd() -> ProptestText {
+pub(crate) fn odd() -> ProptestText {
     one_of(&[
         "nan",
         "NaN",
@@ -63,7 +62,7 @@ pub fn odd() -> ProptestText {
 }
 
 /// A number of ordinary size.
-pub fn plain() -> ProptestText {
+pub(crate) fn plain() -> ProptestText {
     prop_oneof![
         5 => (-4.0..4.0_f64).prop_map(typed),
         3 => (0.0..2.0_f64).prop_map(typed),
@@ -77,12 +76,12 @@ pub fn plain() -> ProptestText {
 }
 
 /// Any number, sometimes an invalid one.
-pub fn number() -> ProptestText {
+pub(crate) fn number() -> ProptestText {
     prop_oneof![12 => plain(), 1 => odd()].boxed()
 }
 
 /// A frequency ratio or its inverse: near 1, near fractions, very small, very large.
-pub fn ratio() -> ProptestText {
+pub(crate) fn ratio() -> ProptestText {
     let near = |x: f64, decades: f64, minus: bool| {
         let away = 10_f64.powf(decades);
         if minus { x * (1.0 - away) } else { x * (1.0 + away) }
@@ -100,7 +99,7 @@ pub fn ratio() -> ProptestText {
 }
 
 /// A gap for a frequency ratio, in some cases near the amplitude of the motion without impacts.
-pub fn gap(beta: f64) -> ProptestText {
+pub(crate) fn gap(beta: f64) -> ProptestText {
     let amplitude = 1.0 / (1.0 - beta * beta).abs();
     let amplitude = if amplitude.is_finite() { amplitude } else { 1.0 };
     prop_oneof![
@@ -119,7 +118,7 @@ pub fn gap(beta: f64) -> ProptestText {
 }
 
 /// A restitution, in some cases near the ends of its range.
-pub fn restitution() -> ProptestText {
+pub(crate) fn restitution() -> ProptestText {
     prop_oneof![
         8 => (0.0..=1.0_f64).prop_map(typed),
         2 => (-16.0..-1.0_f64, any::<bool>()).prop_map(|(d, top)| {
@@ -132,7 +131,7 @@ pub fn restitution() -> ProptestText {
 }
 
 /// A damping ratio from 0 to above critical damping.
-pub fn damping() -> ProptestText {
+pub(crate) fn damping() -> ProptestText {
     prop_oneof![
         4 => (0.0..2.0_f64).prop_map(typed),
         4 => (-16.0..0.0_f64).prop_map(|d| typed(10_f64.powf(d))),
@@ -142,7 +141,7 @@ pub fn damping() -> ProptestText {
 }
 
 /// A small count, or an invalid one.
-pub fn count() -> ProptestText {
+pub(crate) fn count() -> ProptestText {
     prop_oneof![
         12 => (1..6_u32).prop_map(|n| n.to_string()),
         1 => one_of(&["0", "-1", "1e3", "1000000000000000000", "99999999999999999999", "2.5", "", "one", "-0", "+3", "٣"]),
@@ -151,7 +150,7 @@ pub fn count() -> ProptestText {
 }
 
 /// `A:B:N`, in most cases between the given ends.
-pub fn range(low: f64, high: f64) -> ProptestText {
+pub(crate) fn range(low: f64, high: f64) -> ProptestText {
     prop_oneof![
         9 => (0.0..1.0_f64, 0.0..1.0_f64, 2..5_u32).prop_map(move |(a, b, n)| {
             let at = |t: f64| low + (high - low) * t;
@@ -166,7 +165,7 @@ pub fn range(low: f64, high: f64) -> ProptestText {
 }
 
 /// `A:B`, in most cases between the given ends.
-pub fn interval(low: f64, high: f64) -> ProptestText {
+pub(crate) fn interval(low: f64, high: f64) -> ProptestText {
     prop_oneof![
         12 => (0.0..0.9_f64, 0.02..1.0_f64).prop_map(move |(a, w)| {
             let at = |t: f64| low + (high - low) * t;
@@ -179,7 +178,7 @@ pub fn interval(low: f64, high: f64) -> ProptestText {
 }
 
 /// `m/n`, or an invalid label.
-pub fn label() -> ProptestText {
+pub(crate) fn label() -> ProptestText {
     prop_oneof![
         10 => (1..5_u32, 1..4_u32).prop_map(|(m, n)| format!("{m}/{n}")),
         2 => one_of(&["0", "inf/1", "inf/2", "1/1", "2/2", "12/7"]),
@@ -189,7 +188,7 @@ pub fn label() -> ProptestText {
 }
 
 /// The name of a file in the current folder, or an impossible one.
-pub fn file(ends: &'static [&'static str]) -> ProptestText {
+pub(crate) fn file(ends: &'static [&'static str]) -> ProptestText {
     prop_oneof![
         8 => prop::sample::select(ends).prop_map(|end| format!("out{end}")),
         1 => prop::sample::select(ends).prop_map(|end| format!("ünï cødé{end}")),

@@ -13,10 +13,7 @@ const SAME: f64 = 1e-6;
 
 /// Settles each start alone, then all of them in batches that end at `cuts`, with the cycles of a survey from the
 /// starts numbered in `survey`, and compares the verdicts.
-///
-/// # Errors
-/// A message that names the first start whose verdicts differ.
-pub fn alone_as_among(
+pub(crate) fn alone_as_among(
     osc: &Oscillator,
     starts: &[Start],
     options: &SettleOptions,

@@ -27,8 +27,7 @@ pub struct Job {
 
 impl Job {
     /// The words from which the task is read again.
-    #[must_use]
-    pub fn words(&self) -> Vec<String> {
+    pub(crate) fn words(&self) -> Vec<String> {
         let Self { family, seed, from, until, seconds, vibro } = self;
         let numbers = [seed.to_string(), from.to_string(), until.to_string(), seconds.to_string()];
         [family.to_string()].into_iter().chain(numbers).chain([vibro.display().to_string()]).collect()
@@ -81,8 +80,7 @@ fn tell(out: &mut impl Write, line: &Value) -> io::Result<()> {
 }
 
 /// The path of `vibro` in the folder of a program.
-#[must_use]
-pub fn beside(program: &Path) -> PathBuf {
+pub(crate) fn beside(program: &Path) -> PathBuf {
     program.with_file_name(format!("vibro{}", std::env::consts::EXE_SUFFIX))
 }
 

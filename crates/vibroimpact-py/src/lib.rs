@@ -33,37 +33,25 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 #[pyo3::pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::answer::{Answer, answer, contact, plan_of, shares_figure, title_of, varied_parameters};
-    #[pymodule_export]
-    use crate::command::vibro;
-    #[pymodule_export]
-    use crate::error::{QuestionError, StoppedError, StoreError};
-    #[pymodule_export]
-    use crate::figure::{cells_figure, class_colour, diagram_figure, scattered_figure};
-    #[pymodule_export]
-    use crate::grid::{basin_measures, fill, labels_of, span_values};
-    #[pymodule_export]
-    use crate::machine::{
-        MachineFile, machine_names, machine_state, machine_waveform, simulate_machines, states_of_machines,
+    use crate::{
+        answer::{Answer, answer, contact, plan_of, shares_figure, title_of, varied_parameters},
+        command::vibro,
+        error::{QuestionError, StoppedError, StoreError},
+        figure::{cells_figure, class_colour, diagram_figure, scattered_figure},
+        grid::{basin_measures, fill, labels_of, span_values},
+        machine::{MachineFile, machine_names, machine_state, machine_waveform, simulate_machines, states_of_machines},
+        oscillator::OscillatorFile,
+        plan::{
+            body_parameters, checked_plan, coordinate_words, fixed_coordinates, point_coordinates, scales_of_points,
+            schema,
+        },
+        points::{drawn_points, settle_points},
+        region::contains,
+        settle::{settle_many, share_interval},
+        simulate::waveform,
+        simulate_many::{end_reasons, simulate_points, states_of_points},
+        store::{Store, estimate_plan, seconds_of},
     };
-    #[pymodule_export]
-    use crate::oscillator::OscillatorFile;
-    #[pymodule_export]
-    use crate::plan::{
-        body_parameters, checked_plan, coordinate_words, fixed_coordinates, point_coordinates, scales_of_points, schema,
-    };
-    #[pymodule_export]
-    use crate::points::{drawn_points, settle_points};
-    #[pymodule_export]
-    use crate::region::contains;
-    #[pymodule_export]
-    use crate::settle::{settle_many, share_interval};
-    #[pymodule_export]
-    use crate::simulate::waveform;
-    #[pymodule_export]
-    use crate::simulate_many::{end_reasons, simulate_points, states_of_points};
-    #[pymodule_export]
-    use crate::store::{Store, estimate_plan, seconds_of};
 
     /// Whether this build supports buckets.
     #[pymodule_export]

@@ -19,8 +19,7 @@ pub struct BranchQuantity<'a> {
 
 impl<'a> BranchQuantity<'a> {
     /// That of the branches of a machine; `None` if it has stops.
-    #[must_use]
-    pub fn of(
+    pub(crate) fn of(
         machine: &Machine,
         source: &'a MachineSource,
         cut: &Cut<String>,

@@ -33,10 +33,7 @@ pub struct ResponseView<'a> {
 
 impl<'a> ResponseView<'a> {
     /// Of an oscillator, in its units.
-    ///
-    /// # Errors
-    /// [`PlanError`] for what is no parameter.
-    pub fn of_oscillator(
+    pub(crate) fn of_oscillator(
         found: &'a ResponseCurves,
         asked: &'a ResponsePlan<Variable, String>,
         units: &Units,
@@ -57,8 +54,11 @@ impl<'a> ResponseView<'a> {
     }
 
     /// Of a machine, in the units of its numbers.
-    #[must_use]
-    pub fn of_machine(found: &'a ResponseCurves, plan: &'a ResponsePlan<Variable, String>, machine: &Machine) -> Self {
+    pub(crate) fn of_machine(
+        found: &'a ResponseCurves,
+        plan: &'a ResponsePlan<Variable, String>,
+        machine: &Machine,
+    ) -> Self {
         let path = &found.quantities[found.shown];
         Self {
             found,
@@ -75,8 +75,7 @@ impl<'a> ResponseView<'a> {
     }
 
     /// The unit of what varies.
-    #[must_use]
-    pub fn unit(&self) -> f64 {
+    pub(crate) fn unit(&self) -> f64 {
         self.units.map_or(1.0, |(units, vary)| units.of(vary))
     }
 

@@ -195,8 +195,7 @@ impl Units {
     }
 
     /// The name of the units in JSON.
-    #[must_use]
-    pub const fn name(&self) -> &'static str {
+    pub(crate) const fn name(&self) -> &'static str {
         if self.si { "si" } else { "nondimensional" }
     }
 }
@@ -213,9 +212,6 @@ pub(crate) fn given(value: f64, unit: f64) -> f64 {
 }
 
 /// The values of a range or list in another unit, as they were [given].
-///
-/// # Errors
-/// [`PlanError`] if a value overflows.
 pub(crate) fn shown(values: &Values, unit: f64) -> Result<Values, PlanError> {
     Ok(match values {
         Values::Span(span) => Values::Span(shown_span(span, unit)?),

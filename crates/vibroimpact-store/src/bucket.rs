@@ -52,10 +52,7 @@ impl Bucket {
     /// begin with `AWS_`: `AWS_ACCESS_KEY_ID`, `AWS_SECRET_ACCESS_KEY`, `AWS_SESSION_TOKEN`, `AWS_REGION`,
     /// `AWS_ENDPOINT_URL`, `AWS_ALLOW_HTTP` and the others of [`AmazonS3Builder::from_env`]. No request is sent to the
     /// server yet.
-    ///
-    /// # Errors
-    /// [`StoreError::Unreachable`] if the place or a variable is invalid.
-    pub fn new(place: &str) -> Result<Self, StoreError> {
+    pub(crate) fn new(place: &str) -> Result<Self, StoreError> {
         let words = |(key, value): (std::ffi::OsString, std::ffi::OsString)| {
             Some((key.into_string().ok()?, value.into_string().ok()?))
         };

@@ -203,9 +203,6 @@ impl Store {
     }
 
     /// Completes all shards.
-    ///
-    /// # Errors
-    /// [`StoreError::DamagedTile`] for a tile that is missing or damaged.
     pub(crate) fn complete_shards(&self) -> Result<(), StoreError> {
         let Some(shards) = &self.layout.shards else { return Ok(()) };
         let waiting = self.list(LOOSE)?;

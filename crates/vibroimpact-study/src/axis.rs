@@ -88,8 +88,7 @@ impl Coordinate {
     }
 
     /// Whether it is a coordinate of the start (as opposed to a parameter of the system).
-    #[must_use]
-    pub const fn is_start(self) -> bool {
+    pub(crate) const fn is_start(self) -> bool {
         !matches!(self, Self::Parameter(_))
     }
 }
@@ -340,9 +339,6 @@ pub fn typed_axes<W: Name>(axes: &[Axis<Variable>]) -> Result<Vec<Axis<W>>, Plan
 }
 
 /// Checks that one run can keep the results of so many points in memory; a store has no such limit.
-///
-/// # Errors
-/// [`PlanError::Size`] for too many.
 pub(crate) fn check_memory<V>(what: &'static str, axes: &[Axis<V>]) -> Result<(), PlanError> {
     if points(axes) <= MOST_CELLS {
         return Ok(());
@@ -352,10 +348,11 @@ pub(crate) fn check_memory<V>(what: &'static str, axes: &[Axis<V>]) -> Result<()
 }
 
 /// The system at a point of the axes: values on an axis replace those of `system`. `index(k)` is the place on axis `k`.
-///
-/// # Errors
-/// [`PlanError::NoSecondStop`] if an axis varies a parameter of a second stop and there is none.
-pub fn system_at(system: &SystemPlan, axes: &[Axis], index: impl Fn(usize) -> usize) -> Result<SystemPlan, PlanError> {
+pub(crate) fn system_at(
+    system: &SystemPlan,
+    axes: &[Axis],
+    index: impl Fn(usize) -> usize,
+) -> Result<SystemPlan, PlanError> {
     let value = |(k, axis): (usize, &Axis)| match axis.vary {
         Coordinate::Parameter(parameter) => Some((parameter, axis.over.at(index(k)))),
         _ => None,
@@ -366,7 +363,7 @@ pub fn system_at(system: &SystemPlan, axes: &[Axis], index: impl Fn(usize) -> us
 /// The start at a point of the axes: values on an axis replace those of `start`. `index(k)` is the place on axis `k`.
 /// Positions and velocities are in the units of `system`, that of the plan. The result is in the units of `there`, the
 /// system at the point: in a body whose force, mass or stiffness varies, the start is held in SI units.
-pub fn start_at(
+pub(crate) fn start_at(
     (system, there): (&SystemPlan, &SystemPlan),
     start: &StartPlan,
     axes: &[Axis],
@@ -381,9 +378,6 @@ pub fn start_at(
 }
 
 /// Checks the number of the axes and their values, and that none occurs twice.
-///
-/// # Errors
-/// [`PlanError`] for the first axis that is invalid.
 pub(crate) fn check<V: Name>(
     task: &'static str,
     axes: &[Axis<V>],
@@ -397,9 +391,6 @@ pub(crate) fn check<V: Name>(
 }
 
 /// Checks that nothing varies twice.
-///
-/// # Errors
-/// [`PlanError::SameParameter`] for the first number that does.
 pub(crate) fn none_twice<V: Name>(varied: impl IntoIterator<Item = V>) -> Result<(), PlanError> {
     let varied: Vec<V> = varied.into_iter().collect();
     for (k, one) in varied.iter().enumerate() {

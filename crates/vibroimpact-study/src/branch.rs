@@ -6,6 +6,7 @@ use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Shown, SweepDirection};
 use crate::dynamics::{CycleOf, Dynamics, PointOf, Setup};
 use crate::name::{Name, Written, renamed};
 use crate::orbit_line::Solution;
+use crate::plan_text::is_usual;
 use crate::{Control, Cut, DiagramPlan, Parameter, PlanError, RunError, Span, Stretch, Target, limits};
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::{Direction, SolutionPoint};
@@ -43,16 +44,11 @@ pub struct BranchPlan<V = Parameter> {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub orbit: Option<u32>,
     /// How many of the branches that begin at flips and branch points are followed as well: 0 to 100.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_usual")]
     pub follow: u32,
     /// Largest number of points of each branch, 2 to 100000.
     #[serde(default = "points")]
     pub points: u32,
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref)] // serde passes a reference
-const fn is_zero(count: &u32) -> bool {
-    *count == 0
 }
 
 const fn points() -> u32 {
@@ -72,9 +68,6 @@ impl<V> BranchPlan<V> {
 
 impl<V: Name> BranchPlan<V> {
     /// Checks everything that can be checked without running the plan.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value.
     pub(crate) fn check<D: Dynamics<Name = V>>(&self, of: &Setup<'_, D>) -> Result<(), PlanError> {
         of.check_orbit((self.label.as_deref(), self.orbit), false)?;
         let start = of.written.number(&self.vary)?;

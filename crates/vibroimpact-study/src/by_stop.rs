@@ -18,7 +18,12 @@ impl ImpactsByStop {
     /// The numbers of a motion; `None` if there is no second stop, or if the motion does not repeat.
     #[must_use]
     pub fn of(osc: &Oscillator, verdict: &Verdict) -> Option<Self> {
-        osc.stop(Side::Lower)?;
+        osc.stop(Side::Lower).and_then(|_| Self::of_motion(verdict))
+    }
+
+    /// The same, of one stop too.
+    #[must_use]
+    pub fn of_motion(verdict: &Verdict) -> Option<Self> {
         match verdict {
             Verdict::Periodic(cycle) => Some(Self::of_cycle(cycle)),
             Verdict::NoImpact(NoImpact::ForPeriods(_)) | Verdict::Chaotic(_) | Verdict::Undecided(_) => None,

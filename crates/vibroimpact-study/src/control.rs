@@ -87,7 +87,7 @@ impl<'a> Meter<'a> {
     }
 
     /// Counts one more point. Returns whether to stop.
-    pub fn tick(&self) -> bool {
+    pub(crate) fn tick(&self) -> bool {
         let now = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         if self.total <= FEW || now.is_multiple_of(TELL) || now == self.total {
             (self.control.progress)(now);

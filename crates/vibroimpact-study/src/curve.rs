@@ -84,9 +84,6 @@ impl<V> CurvePlan<V> {
 
 impl<V: Name> CurvePlan<V> {
     /// Checks everything that can be checked without running the plan.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value.
     pub(crate) fn check<D: Dynamics<Name = V>>(&self, of: &Setup<'_, D>) -> Result<(), PlanError> {
         of.check_orbit((self.label.as_deref(), self.orbit), true)?;
         D::check_curve(self.kind)?;

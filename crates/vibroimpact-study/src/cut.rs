@@ -57,10 +57,7 @@ impl Cut {
     }
 
     /// The same line in the form used for branches that begin where the first parameter has the value `value`.
-    ///
-    /// # Errors
-    /// [`PlanError`] if both parameters are the same one, or if both ends of the first parameter are equal.
-    pub fn varying(&self, system: &SystemPlan, value: f64) -> Result<ParameterPath, PlanError> {
+    pub(crate) fn varying(&self, system: &SystemPlan, value: f64) -> Result<ParameterPath, PlanError> {
         let (first, last) = self.ends;
         let of_body = self.names().find_map(|parameter| parameter.of_body());
         if self.also.is_some() && first == last {
@@ -81,9 +78,6 @@ impl Cut {
 
     /// Checks the systems at both ends and that the two parameters form a line. If both ends are valid, every system
     /// between them is.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value.
     pub(crate) fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         for end in [self.ends.0, self.ends.1] {
             self.oscillator(system, end)?;
@@ -118,9 +112,6 @@ impl Cut<String> {
     }
 
     /// Checks that the second number is another one, that all values are finite, the paths, and the machine at the end.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value.
     pub(crate) fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
         source.number(&self.vary)?;
         let endless = |path: &String, (from, to): (f64, f64)| {

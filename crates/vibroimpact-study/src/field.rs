@@ -142,8 +142,7 @@ impl Column {
     }
 
     /// Value number `k`; `None` if there is none.
-    #[must_use]
-    pub fn get(&self, k: usize) -> Option<f64> {
+    pub(crate) fn get(&self, k: usize) -> Option<f64> {
         match self {
             Self::I8(values) => values.get(k).copied().map(f64::from),
             Self::I32(values) => values.get(k).copied().map(f64::from),

@@ -16,9 +16,6 @@ pub(crate) const MOST_STARTS: u64 = 1_000_000_000;
 pub(crate) const MOST_POINTS: u32 = 100_000;
 
 /// Checks that a number lies in its range.
-///
-/// # Errors
-/// [`PlanError::OutOfRange`] if it does not.
 pub(crate) fn check<T: PartialOrd + Display + Copy>(
     name: &'static str,
     given: T,
@@ -28,9 +25,6 @@ pub(crate) fn check<T: PartialOrd + Display + Copy>(
 }
 
 /// The same of a number that may be absent.
-///
-/// # Errors
-/// As [`check`].
 pub(crate) fn given<T: PartialOrd + Display + Copy>(
     name: &'static str,
     given: Option<T>,
@@ -40,9 +34,6 @@ pub(crate) fn given<T: PartialOrd + Display + Copy>(
 }
 
 /// Checks a largest number of points of a branch or curve.
-///
-/// # Errors
-/// As [`check`].
 pub(crate) fn branch_points(given: u32) -> Result<(), PlanError> {
     check("points", given, 2..=MOST_POINTS)
 }
@@ -51,25 +42,16 @@ pub(crate) fn branch_points(given: u32) -> Result<(), PlanError> {
 const MOST_SECTION: u64 = 100_000;
 
 /// Checks a number of points of a section, if any are requested.
-///
-/// # Errors
-/// As [`check`].
 pub(crate) fn section(points: Option<u64>) -> Result<(), PlanError> {
     given("points", points, 1..=MOST_SECTION)
 }
 
 /// Checks a number of starts.
-///
-/// # Errors
-/// As [`check`].
 pub(crate) fn starts(given: u64, most: u64) -> Result<(), PlanError> {
     check("starts", given, 1..=most)
 }
 
 /// Checks the impacts of a measurement of exponents, and those to pass before.
-///
-/// # Errors
-/// As [`check`].
 pub(crate) fn measured(
     impacts: Option<u64>,
     range: RangeInclusive<u64>,

@@ -276,9 +276,6 @@ impl<A: Along> OrbitLine<A> {
 
     /// The first event of the branch of a cycle at a value of the number in one direction, and the label beyond it unless the branch
     /// ends; `None` if there is none in the range.
-    ///
-    /// # Errors
-    /// As [`trace`](Self::trace).
     pub(crate) fn first_event(
         &self,
         at: (f64, &CycleOn<A>),

@@ -51,8 +51,7 @@ impl Parameter {
     ];
 
     /// The parameter of the oscillator; `None` for a number of a body.
-    #[must_use]
-    pub const fn of_oscillator(self) -> Option<OfOscillator> {
+    pub(crate) const fn of_oscillator(self) -> Option<OfOscillator> {
         Some(match self {
             Self::Beta => OfOscillator::Beta,
             Self::InverseBeta => OfOscillator::InverseBeta,

@@ -53,6 +53,11 @@ pub(crate) struct PlanText {
     machine: Option<WrittenMachine>,
 }
 
+/// Whether a field has the value that it has when absent, and need not be written.
+pub(crate) fn is_usual<T: Default + PartialEq>(field: &T) -> bool {
+    *field == T::default()
+}
+
 /// The names in a plan that only an oscillator has.
 const OF_OSCILLATORS: [&str; 2] = ["system", "units"];
 /// The names in a plan that only a machine has, besides its table.
@@ -336,9 +341,6 @@ impl OscillatorText {
     }
 
     /// The system in nondimensional numbers.
-    ///
-    /// # Errors
-    /// [`PlanError::Missing`] with the numbers that are neither given nor vary.
     fn nondimensional(&self, varied: &[(Parameter, f64)]) -> Result<SystemPlan, PlanError> {
         let varies = |parameter| varied.iter().any(|(other, _)| *other == parameter);
         let needed = [(Parameter::Gap, self.gap), (Parameter::Restitution, self.restitution)];

@@ -47,9 +47,6 @@ impl<V> RegionPlan<V> {
 
 impl<V: Name> RegionPlan<V> {
     /// Checks everything that can be checked without running the plan.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value.
     pub(crate) fn check<D: Dynamics<Name = V>>(&self, of: &Setup<'_, D>) -> Result<(), PlanError> {
         limits::check("grid", self.grid, 2..=MOST_GRID)?;
         of.written.check_plane(&self.across, &self.up)?;

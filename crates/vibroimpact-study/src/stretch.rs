@@ -70,15 +70,11 @@ renamed!(Target: names parameter, parts, others to);
 
 impl Stretch {
     /// Its values.
-    #[must_use]
-    pub const fn range(&self) -> RangeInclusive<f64> {
+    pub(crate) const fn range(&self) -> RangeInclusive<f64> {
         self.from..=self.to
     }
 
     /// The plane of this parameter and another one: of a body if one of them is a number of a body.
-    ///
-    /// # Errors
-    /// [`PlanError::NoBody`] for a number of a body if the system is none.
     pub(crate) fn frame(&self, other: &Self, system: &SystemPlan) -> Result<Frame, PlanError> {
         let (one, two) = (self.parameter, other.parameter);
         let plane = match (one.of_oscillator().zip(two.of_oscillator()), system.body) {
@@ -104,9 +100,6 @@ const NARROW: f64 = 2e-11;
 const NARROWEST: f64 = 1e-100;
 
 /// Checks that the ranges of two parameters span a plane of valid systems.
-///
-/// # Errors
-/// [`PlanError`] for ends out of order or too close, for equal parameters, and for an invalid system at a corner.
 pub(crate) fn check_plane(system: &SystemPlan, one: &Stretch, two: &Stretch) -> Result<(), PlanError> {
     for stretch in [one, two] {
         if !(stretch.from.is_finite() && stretch.to.is_finite() && stretch.from < stretch.to) {

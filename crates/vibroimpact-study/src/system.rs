@@ -30,14 +30,12 @@ impl From<MachineSource> for System {
 
 impl System {
     /// The oscillator; `None` for a machine.
-    #[must_use]
-    pub const fn oscillator(&self) -> Option<&SystemPlan> {
+    pub(crate) const fn oscillator(&self) -> Option<&SystemPlan> {
         if let Self::Oscillator(system) = self { Some(system) } else { None }
     }
 
     /// The machine; `None` for an oscillator.
-    #[must_use]
-    pub fn machine(&self) -> Option<&MachineSource> {
+    pub(crate) fn machine(&self) -> Option<&MachineSource> {
         if let Self::Machine(machine) = self { Some(machine) } else { None }
     }
 }
@@ -117,7 +115,6 @@ impl SystemPlan {
 
     /// A position and a velocity of this system in the units of the system `there`, in which the body may have another
     /// force, mass or stiffness.
-    #[must_use]
     pub(crate) fn state_in(&self, there: &Self, (x, v): (f64, f64)) -> (f64, f64) {
         if self.body == there.body {
             return (x, v);

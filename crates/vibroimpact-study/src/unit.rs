@@ -33,8 +33,7 @@ impl Unit {
     pub const RATE: Self = Self::nondimensional(QuantityKind::Rate);
 
     /// The unit of a nondimensional quantity of this kind.
-    #[must_use]
-    pub const fn nondimensional(kind: QuantityKind) -> Self {
+    pub(crate) const fn nondimensional(kind: QuantityKind) -> Self {
         match kind {
             QuantityKind::Number => Self::NUMBER,
             kind => Self { name: "1", scale: kind.nondimensional() },
@@ -42,8 +41,7 @@ impl Unit {
     }
 
     /// The SI unit of a number of a body.
-    #[must_use]
-    pub const fn of_body(number: BodyNumber) -> Self {
+    pub(crate) const fn of_body(number: BodyNumber) -> Self {
         Self { name: number.udunits(), scale: "" }
     }
 

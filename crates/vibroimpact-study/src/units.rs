@@ -63,9 +63,6 @@ impl UnitsPlan {
     }
 
     /// Checks that all units are positive and finite, and those of the body if the system is one.
-    ///
-    /// # Errors
-    /// [`PlanError`] for the first that is not.
     pub(crate) fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         if let Some(own) = Self::of_system(system) {
             for (name, given, own) in [

@@ -5,7 +5,7 @@ use axum::body::{Body, to_bytes};
 use axum::http::{Request, StatusCode, header};
 use serde_json::Value;
 use tower::ServiceExt;
-use vibroimpact::verdict::settle;
+use vibroimpact::verdict::{SettleOptions, settle};
 use vibroimpact_study::{Axis, BasinPlan, MapPlan, Plan, Task};
 use vibroimpact_web::{Explorer, app};
 
@@ -68,20 +68,21 @@ fn read(bytes: &[u8]) -> Tile {
 fn alone(plan: &Plan, column: usize, row: usize) -> String {
     let index = |k: usize| [column, row][k];
     let system = plan.oscillator().unwrap();
-    let (osc, start, options) = match &plan.task {
+    let (osc, start, impacts) = match &plan.task {
         Task::Map(map) => {
             let map: MapPlan = map.typed().unwrap();
             let osc = map.oscillator(system, index).unwrap();
-            (osc, vibroimpact::Start { x: 0.0_f64.min(osc.gap()), v: 0.0, phase: 0.0 }, map.options())
+            (osc, vibroimpact::Start { x: 0.0_f64.min(osc.gap()), v: 0.0, phase: 0.0 }, map.impacts)
         }
         Task::Basin(basin) => {
             let basin: BasinPlan = basin.typed().unwrap();
             let at = |axis: &Axis, k: usize| axis.over.at(index(k));
             let (x, v) = (at(&basin.axes[0], 0), at(&basin.axes[1], 1));
-            (system.oscillator().unwrap(), vibroimpact::Start { x, v, phase: 0.0 }, basin.options())
+            (system.oscillator().unwrap(), vibroimpact::Start { x, v, phase: 0.0 }, basin.impacts)
         }
         _ => unreachable!(),
     };
+    let options = impacts.map_or_else(SettleOptions::default, SettleOptions::at_most);
     settle(&osc, start, &options).verdict.label().into_owned()
 }
 

@@ -172,9 +172,6 @@ fn again(commands: &Commands, case: &CommandCase, first: &ProcessEnd) -> Result<
 }
 
 /// Checks that two outputs are equal.
-///
-/// # Errors
-/// The position of the first difference.
 pub(crate) fn same(a: &[u8], b: &[u8]) -> Result<(), String> {
     if a == b {
         return Ok(());

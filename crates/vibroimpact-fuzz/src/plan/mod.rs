@@ -29,7 +29,7 @@ pub struct Written {
 
 impl Written {
     /// The strategy by which plans are drawn.
-    pub fn strategy() -> BoxedStrategy<Self> {
+    pub(crate) fn strategy() -> BoxedStrategy<Self> {
         Self::of(draw::plan())
     }
 
@@ -41,8 +41,7 @@ impl Written {
     }
 
     /// Its text.
-    #[must_use]
-    pub fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         let tree = mutate::changed(self.plan.clone(), &self.changes);
         let toml = if self.toml { toml::to_string(&tree).ok() } else { None };
         // values that TOML cannot express are written as JSON
@@ -56,8 +55,7 @@ impl Written {
     }
 
     /// The same plan as JSON.
-    #[must_use]
-    pub fn json(&self) -> String {
+    pub(crate) fn json(&self) -> String {
         Self { toml: false, ..self.clone() }.text()
     }
 }

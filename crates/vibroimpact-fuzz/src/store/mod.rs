@@ -42,10 +42,7 @@ pub struct Stores {
 
 impl Stores {
     /// Tests this command.
-    ///
-    /// # Errors
-    /// If there is no such command, or no folder for temporary files.
-    pub fn new(vibro: &Path) -> io::Result<Self> {
+    pub(crate) fn new(vibro: &Path) -> io::Result<Self> {
         Ok(Self { vibro: vibro.canonicalize()?, scratch: TempDir::new()?, whole: vec![None; PLANS.len()] })
     }
 

@@ -224,24 +224,10 @@ mod tests {
 
     #[test]
     fn every_shape_has_a_path() {
-        use Shape::{
-            Bar, Circle, Cross, Diamond, Pentagon, Plus, Square, Star, TriangleDown, TriangleLeft, TriangleRight,
-            TriangleUp,
-        };
-        let all = [
-            Circle,
-            Square,
-            Diamond,
-            TriangleUp,
-            TriangleDown,
-            Cross,
-            Plus,
-            TriangleRight,
-            TriangleLeft,
-            Pentagon,
-            Star,
-            Bar,
-        ];
+        let round =
+            [Shape::Circle, Shape::Square, Shape::Diamond, Shape::Cross, Shape::Plus, Shape::Pentagon, Shape::Star];
+        let pointed = [Shape::TriangleUp, Shape::TriangleDown, Shape::TriangleRight, Shape::TriangleLeft, Shape::Bar];
+        let all = [&round[..], &pointed].concat();
         let paths: HashSet<String> = all.iter().map(|s| s.path(5.0, 5.0, 10.0)).collect();
         assert_eq!(paths.len(), all.len());
     }

@@ -191,10 +191,7 @@ type DiagramOf<D> = Diagram<<D as Dynamics>::Name, <D as Dynamics>::Shown>;
 
 impl<D: Told> AnswerOf<D> {
     /// As [`Answer::figure`].
-    ///
-    /// # Errors
-    /// [`AnswerError`] for a result that cannot be drawn, or when stopped.
-    pub fn figure(&self, shown: &Shown, control: &Control<'_>) -> Result<Option<Figure>, AnswerError> {
+    pub(crate) fn figure(&self, shown: &Shown, control: &Control<'_>) -> Result<Option<Figure>, AnswerError> {
         let mut figure = self.plain_figure(shown, control)?;
         if let Some(figure) = &mut figure {
             shown.overlay.add(figure, &self.plan, control)?;
@@ -362,10 +359,7 @@ impl<D: Told> AnswerOf<D> {
     }
 
     /// As [`Answer::table`].
-    ///
-    /// # Errors
-    /// [`AnswerError`] for a result that cannot be tabulated.
-    pub fn table(&self, shown: &Shown) -> Result<Option<Table<'_>>, AnswerError> {
+    pub(crate) fn table(&self, shown: &Shown) -> Result<Option<Table<'_>>, AnswerError> {
         let (units, view, machine) = (&self.units, shown.view.unwrap_or_default(), D::machine(self));
         Ok(Some(match &self.results {
             Results::Simulate(found) => {

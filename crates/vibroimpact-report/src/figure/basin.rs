@@ -21,10 +21,7 @@ pub struct BasinMotion {
 }
 
 /// The figure of `vibro basin`. Starts beyond a rigid stop are left blank.
-///
-/// # Errors
-/// [`ReportError`] if there are not one or two axes with rising or falling values, or if an axis is too long.
-pub fn figure<S: System, V: Varied, F>(
+pub(crate) fn figure<S: System, V: Varied, F>(
     found: &Basin<S, V, F>,
     units: &Units,
     title: String,

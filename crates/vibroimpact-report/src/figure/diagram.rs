@@ -46,10 +46,7 @@ pub struct Motion {
 }
 
 /// The figure of `vibro diagram`.
-///
-/// # Errors
-/// [`ReportError::Plan`] if a value of the parameter overflows in these units.
-pub fn figure<V: Varied, S: ShownValue>(
+pub(crate) fn figure<V: Varied, S: ShownValue>(
     found: &Diagram<V, S>,
     units: &Units,
     title: String,

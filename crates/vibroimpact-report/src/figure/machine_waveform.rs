@@ -24,10 +24,7 @@ const SIDES: usize = 20_000;
 const HATCHES: [Pattern; 4] = [Pattern::Rising, Pattern::Falling, Pattern::Horizontal, Pattern::Dots];
 
 /// Draws the motion that was simulated.
-///
-/// # Errors
-/// [`ReportError`] for an invalid start.
-pub fn figure(
+pub(crate) fn figure(
     machine: &Machine,
     start: &Start,
     found: &Simulated<Event>,

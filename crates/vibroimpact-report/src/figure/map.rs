@@ -71,10 +71,7 @@ impl PointMotions {
 
 /// The figure of `vibro map`: a plane, or the shares of the motions over one axis; and whether cells are divided between motions
 /// that coexist, and whether lines are drawn between cells with different motions.
-///
-/// # Errors
-/// [`ReportError`] if there are not one or two axes with rising or falling values, or if an axis is too long.
-pub fn figure<V: Varied, F: FieldName>(
+pub(crate) fn figure<V: Varied, F: FieldName>(
     found: &RegionMap<V, F>,
     units: &Units,
     title: String,
@@ -87,7 +84,7 @@ pub fn figure<V: Varied, F: FieldName>(
     }
 }
 
-/// Draws a map, and says as [`figure`] what is drawn.
+/// Draws a map, and says as `figure` what is drawn.
 ///
 /// # Errors
 /// As [`draw`].

@@ -26,10 +26,7 @@ pub struct Plane {
 
 impl Plane {
     /// The plane over two axes.
-    ///
-    /// # Errors
-    /// [`ReportError`] if there are not two axes with rising or falling values, or if an axis is too long.
-    pub fn of<V: Varied>(axes: &[Axis<V>], units: &Units) -> Result<Self, ReportError> {
+    pub(crate) fn of<V: Varied>(axes: &[Axis<V>], units: &Units) -> Result<Self, ReportError> {
         let [x, y] = axes else { return Err(ReportError::Axes(axes.len())) };
         Ok(Self { x: PlaneAxis::of(x, units)?, y: PlaneAxis::of(y, units)? })
     }

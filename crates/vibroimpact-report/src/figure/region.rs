@@ -18,8 +18,7 @@ const THICK: f64 = 3.2;
 const THIN: f64 = 1.5;
 
 /// The figure of `vibro region`; of a motion that is neutral where it exists, or not.
-#[must_use]
-pub fn figure<V: Varied>(
+pub(crate) fn figure<V: Varied>(
     found: &Regions,
     plan: &RegionPlan<V>,
     (neutral, units): (bool, &Units),

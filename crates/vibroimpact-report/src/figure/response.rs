@@ -23,8 +23,7 @@ const DASHES: [(Stability, Dash); 3] =
 type BranchLine = ((String, Stability), Vec<f64>, Vec<f64>);
 
 /// The figure of `vibro response`, with this title. Inadmissible solutions are left out.
-#[must_use]
-pub fn figure(view: &ResponseView<'_>, title: String) -> Figure {
+pub(crate) fn figure(view: &ResponseView<'_>, title: String) -> Figure {
     let (found, (from, to)) = (view.found, view.ends());
     let mut panel =
         Panel::new(FigureAxis::new(view.axis.clone()).range(from, to), FigureAxis::new(view.ordinate.clone()));

@@ -37,8 +37,7 @@ struct Look {
 }
 
 /// The figure of `vibro lyapunov`.
-#[must_use]
-pub fn figure(found: &SectionPoints, osc: &Oscillator, asked: &Asked) -> Figure {
+pub(crate) fn figure(found: &SectionPoints, osc: &Oscillator, asked: &Asked) -> Figure {
     let units = &asked.units;
     let stop = |(side, stop): (Side, Stop)| {
         let name = match side {
@@ -64,8 +63,7 @@ pub fn figure(found: &SectionPoints, osc: &Oscillator, asked: &Asked) -> Figure 
 }
 
 /// The figure of `vibro lyapunov --machine`: a plane for each coordinate and its velocity.
-#[must_use]
-pub fn of_machine(found: &SectionPoints, machine: &Machine, title: String) -> Figure {
+pub(crate) fn of_machine(found: &SectionPoints, machine: &Machine, title: String) -> Figure {
     let coordinates = &machine.parts().coordinates;
     let shown = coordinates.len().min(PLANES);
     let look = Look {

@@ -14,8 +14,7 @@ const SHOWN: f64 = 6.0;
 const MOST_EVENTS: usize = 200_000;
 
 /// The figure of `vibro settle`: the motion after the transient.
-#[must_use]
-pub fn figure(osc: &Oscillator, start: Start, settled: &Settled, asked: &Asked) -> Figure {
+pub(crate) fn figure(osc: &Oscillator, start: Start, settled: &Settled, asked: &Asked) -> Figure {
     let (from, span) = steady(osc, start, settled);
     let label = label(&settled.verdict.label());
     let name = format!("{}: {label}", title(asked));

@@ -13,8 +13,13 @@ const MOST: f64 = 400_000.0;
 const MARKED: usize = 5000;
 
 /// Draws the motion from `start` for a time `until`. Times in the figure begin at `from`.
-#[must_use]
-pub fn figure(osc: &Oscillator, start: Start, (from, until): (f64, f64), units: &Units, title: String) -> Figure {
+pub(crate) fn figure(
+    osc: &Oscillator,
+    start: Start,
+    (from, until): (f64, f64),
+    units: &Units,
+    title: String,
+) -> Figure {
     let fine = osc.period().min(core::f64::consts::TAU) / 240.0;
     let step = fine.max(until / MOST).max(f64::MIN_POSITIVE);
     let wave = sample(osc, start, until, step, 2_000_000);

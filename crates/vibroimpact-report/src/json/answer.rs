@@ -24,8 +24,7 @@ impl<D: Told> Serialize for AnswerOf<D> {
 
 impl<D: Told> AnswerOf<D> {
     /// The JSON object without what takes longest to compute: the harmonics and the transient of a settled motion.
-    #[must_use]
-    pub fn brief(&self) -> String {
+    pub(crate) fn brief(&self) -> String {
         // texts and numbers can always be written as JSON
         serde_json::to_string(&Written(self, true)).unwrap_or_default()
     }

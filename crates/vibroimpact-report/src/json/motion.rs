@@ -324,11 +324,7 @@ const fn finite(impacts: Count) -> Option<u32> {
 
 /// Impacts on each stop of an oscillator in one period; `None` if the motion does not repeat.
 fn counts(osc: &Oscillator, verdict: &Verdict) -> Option<Map<String, Value>> {
-    let by = match verdict {
-        Verdict::Periodic(cycle) => ImpactsByStop::of_cycle(cycle),
-        Verdict::NoImpact(NoImpact::ForPeriods(_)) | Verdict::Chaotic(_) | Verdict::Undecided(_) => return None,
-        Verdict::NoImpact(_) | Verdict::Stuck(_) => ImpactsByStop { upper: Some(0), lower: Some(0) },
-    };
+    let by = ImpactsByStop::of_motion(verdict)?;
     let count = |at: Side| if at == Side::Upper { by.upper } else { by.lower };
     Some(osc.stops().map(|(at, _)| (side(at).to_owned(), count(at).into())).collect())
 }

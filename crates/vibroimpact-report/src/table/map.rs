@@ -12,10 +12,7 @@ use vibroimpact_study::{PlanError, RegionMap, Share};
 /// The table of `vibro map`: what varies, in the units and with exactly the numbers of the question, the label, its share of the
 /// starts, and the quantities that the plan asks for; with `remarked` also what stops and events say more of the label. Of points
 /// that are no grid their number comes first, and there is no share.
-///
-/// # Errors
-/// [`PlanError`] if a value of an axis overflows in these units.
-pub fn table<'a, V: Varied, F: FieldName>(
+pub(crate) fn table<'a, V: Varied, F: FieldName>(
     found: &'a RegionMap<V, F>,
     system: &'a impl Stops,
     (units, remarked): (Units, bool),

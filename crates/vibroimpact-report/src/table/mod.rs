@@ -41,8 +41,7 @@ impl<'a> Table<'a> {
     }
 
     /// A table with a header and rows.
-    #[must_use]
-    pub fn new(header: String, rows: impl Iterator<Item = String> + 'a) -> Self {
+    pub(crate) fn new(header: String, rows: impl Iterator<Item = String> + 'a) -> Self {
         Self { header, rows: Box::new(rows) }
     }
 

@@ -14,8 +14,7 @@ pub fn both(found: &Regions) -> [(&'static str, &Region); 2] {
 }
 
 /// The table of `vibro region`.
-#[must_use]
-pub fn table<'a, V: Varied>(found: &'a Regions, plan: &RegionPlan<V>, units: &Units) -> Table<'a> {
+pub(crate) fn table<'a, V: Varied>(found: &'a Regions, plan: &RegionPlan<V>, units: &Units) -> Table<'a> {
     let (across, up) = (plan.across.parameter.column(units), plan.up.parameter.column(units));
     Table::new(format!("region,polygon,hole,sheet,{across},{up},bound"), rows(found, unit(plan, units)))
 }

@@ -7,8 +7,7 @@ use crate::response::ResponseView;
 use vibroimpact_study::ResponseRow;
 
 /// The table of `vibro response`, with all quantities. The first column is `up`, `down` or the number of a branch.
-#[must_use]
-pub fn table(view: ResponseView<'_>) -> Table<'_> {
+pub(crate) fn table(view: ResponseView<'_>) -> Table<'_> {
     let found = view.found;
     let sweeps = [("up", &found.up), ("down", &found.down)].map(|(name, rows)| (name.to_owned(), rows));
     let branches = found.branches.iter().enumerate().map(|(k, rows)| ((k + 1).to_string(), rows));

@@ -10,8 +10,7 @@ use vibroimpact_study::SectionPoints;
 
 /// The table of `vibro lyapunov`, with these names of the coordinates and velocities: the closings first, with the state after
 /// each, then the states at phase 0. The section is `closing` or `strobe`.
-#[must_use]
-pub fn table<'a>(
+pub(crate) fn table<'a>(
     points: &'a SectionPoints,
     system: &'a impl Stops,
     (q, qdot): &(Vec<String>, Vec<String>),

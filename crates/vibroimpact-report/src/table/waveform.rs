@@ -27,10 +27,7 @@ fn few_enough(until: f64, step: f64) -> Result<(), ReportError> {
 }
 
 /// The table of `vibro simulate`: the motion from a start until a time, at equal steps and at its events.
-///
-/// # Errors
-/// [`ReportError::Points`] for more than ten million points.
-pub fn table(
+pub(crate) fn table(
     osc: &Oscillator,
     start: Start,
     (until, step): (f64, f64),
@@ -83,10 +80,11 @@ fn refused(error: MachineError) -> ReportError {
 /// The table of `vibro simulate --machine`: time, coordinates, velocities, gaps of the stops, forces of stops and joints, how far
 /// the surfaces of damped stops stand back, what stops and joints do, and the phase of the forcing. Where a row is the state after an
 /// event, the last column has the digits that the others leave out, as an object in JSON.
-///
-/// # Errors
-/// [`ReportError::Points`] for more than ten million points, [`ReportError::Plan`] for an invalid start.
-pub fn of_machine<'a>(machine: &'a Machine, start: &events::Start, span: (f64, f64)) -> Result<Table<'a>, ReportError> {
+pub(crate) fn of_machine<'a>(
+    machine: &'a Machine,
+    start: &events::Start,
+    span: (f64, f64),
+) -> Result<Table<'a>, ReportError> {
     let (surfaces, forced) = (recovering(machine), machine.parts().frequency.is_some());
     let samples = samples(machine, start, span)?;
     let motion = Motion::with_states(machine, start, motion_limits(machine, span.0)).map_err(refused)?;

@@ -37,7 +37,6 @@ const PARTS: usize = 100;
 
 /// The comparison of the boundaries in a plane whose cells are numbers of motions, with `width` cells in each row; `None`
 /// with fewer than three basins to compare.
-#[must_use]
 pub(super) fn merging<T: Copy + PartialEq>(cells: &[T], width: usize) -> Option<Merging> {
     let height = cells.len() / width.max(1);
     let cells = &cells[..height * width];

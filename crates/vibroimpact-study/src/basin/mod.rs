@@ -35,9 +35,6 @@ pub const NO_START: u16 = u16::MAX;
 
 impl<S: System, V, F> Basin<S, V, F> {
     /// A basin from the motions of all starts, of which `quantities` returns the values of the fields.
-    ///
-    /// # Errors
-    /// [`PlanError`] for more motions than cells have numbers.
     pub(crate) fn new(
         plan: BasinPlan<V, F>,
         (motions, cells): (Vec<CountedMotion<S>>, Vec<Option<usize>>),
@@ -96,8 +93,7 @@ impl Basin {
 }
 
 /// The start of cell number `k` of a basin of one oscillator.
-#[must_use]
-pub fn start(osc: &Oscillator, plan: &BasinPlan, k: u64) -> Start {
+pub(crate) fn start(osc: &Oscillator, plan: &BasinPlan, k: u64) -> Start {
     let mut rest = k;
     let mut place = [0; 4];
     for (place, axis) in place.iter_mut().zip(&plan.axes) {

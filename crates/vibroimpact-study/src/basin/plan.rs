@@ -2,14 +2,13 @@
 
 use crate::axis::{self, Axis, Coordinate};
 use crate::machine::StartAxis;
-use crate::map::{check_impacts, check_refine, options};
+use crate::map::{check_impacts, check_refine};
 use crate::name::Renamed;
 use crate::quantity::{Quantity, check_fields};
 use crate::{PlanError, PointsPlan, Span, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::SettleOptions;
 
 /// The starts of a basin: a grid over coordinates of the start, and perhaps over parameters, or points of both.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -63,14 +62,6 @@ impl<V, Q> BasinPlan<V, Q> {
     }
 }
 
-impl<V, Q> BasinPlan<V, Q> {
-    /// The options with which each start is followed.
-    #[must_use]
-    pub fn options(&self) -> SettleOptions {
-        options(self.impacts)
-    }
-}
-
 impl<V: Clone + Into<Cow<'static, str>>, Q> BasinPlan<V, Q> {
     /// Total number of starts.
     #[must_use]
@@ -106,11 +97,7 @@ impl BasinPlan {
     }
 
     /// Checks everything that can be checked without running the plan.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value: invalid axes, a start beyond a stop, or a corner that is no valid
-    /// system.
-    pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
+    pub(crate) fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         let counts = if self.points.is_some() { (0, MOST_AXES - 1) } else { (1, MOST_AXES) };
         axis::check("basin", &self.axes, counts)?;
         check_refine(self.refine)?;
@@ -148,8 +135,7 @@ impl BasinPlan {
     }
 
     /// Whether all starts belong to one system, that is, no axis varies a parameter.
-    #[must_use]
-    pub fn one_system(&self) -> bool {
+    pub(crate) fn one_system(&self) -> bool {
         let points = self.points.as_ref().is_none_or(PointsPlan::one_system);
         points && self.axes.iter().all(|axis| axis.vary.is_start())
     }
@@ -157,10 +143,7 @@ impl BasinPlan {
 
 impl BasinPlan<String, String> {
     /// Checks everything that can be checked without running the plan.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value.
-    pub fn check(&self, machine: &Machine) -> Result<(), PlanError> {
+    pub(crate) fn check(&self, machine: &Machine) -> Result<(), PlanError> {
         if self.points.is_some() || self.transient {
             let hint = "the task settle_many has points";
             return Err(PlanError::refused(format!("a basin of a machine has axes only\nhint: {hint}")));

@@ -97,9 +97,6 @@ pub(super) fn budget(transient: u64, keep: u64) -> u64 {
 
 /// The state `from` of the system `before` as a start of the system `there`. A mass on a stop stays on it. If a moved
 /// stop has passed the mass, the mass is placed on that stop. A body keeps its position and velocity in SI units.
-///
-/// # Errors
-/// [`PlanError`] if one of them is no valid system.
 pub(crate) fn carried_state(from: Start, before: &SystemPlan, there: &SystemPlan) -> Result<Start, PlanError> {
     let (was_lowest, was_highest) = Start::room(&before.oscillator()?);
     let (lowest, highest) = Start::room(&there.oscillator()?);

@@ -27,9 +27,6 @@ enum ShownPath {
 
 impl DiagramPlan<String, String> {
     /// What is shown.
-    ///
-    /// # Errors
-    /// [`PlanError::Refused`] for a name that is none of these, [`PlanError::Unforced`] for a phase without a forcing.
     fn shown(&self, machine: &Machine) -> Result<ShownPath, PlanError> {
         let names = &machine.parts().coordinates;
         let of = |name: &str| names.iter().position(|known| known == name);
@@ -53,10 +50,7 @@ impl DiagramPlan<String, String> {
     }
 
     /// Checks everything that can be checked without running the plan.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value.
-    pub fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
+    pub(crate) fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
         check_order(&self.over)?;
         let cut = self.cut();
         cut.check(source)?;

@@ -212,8 +212,7 @@ const MOST_POINTS: u64 = 20_000_000;
 
 impl SweepDirection {
     /// Number of motions followed at each value.
-    #[must_use]
-    pub const fn runs(self) -> u64 {
+    pub(crate) const fn runs(self) -> u64 {
         match self {
             Self::Up | Self::Down => 1,
             Self::Both => 2,
@@ -223,9 +222,6 @@ impl SweepDirection {
 }
 
 /// Checks the values of a diagram, which a sweep takes one after another.
-///
-/// # Errors
-/// [`PlanError`] for an invalid list, and for a list whose values neither rise nor fall.
 pub(crate) fn check_order(over: &Values) -> Result<(), PlanError> {
     over.check()?;
     let sentence = "the values of a diagram rise or fall, and those of the list do neither\nhint: sort them";
@@ -233,9 +229,6 @@ pub(crate) fn check_order(over: &Values) -> Result<(), PlanError> {
 }
 
 /// Checks the lengths of a diagram: those of the transient and of what is shown, and the number of all points.
-///
-/// # Errors
-/// [`PlanError`] names the first invalid value.
 pub(crate) fn check_shown(
     over: &Values,
     direction: SweepDirection,
@@ -311,10 +304,7 @@ impl DiagramPlan {
     }
 
     /// The system at value number `k`. Parameters that do not vary are those of `system`.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a value that gives no valid system.
-    pub fn system(&self, system: &SystemPlan, k: u32) -> Result<SystemPlan, PlanError> {
+    pub(crate) fn system(&self, system: &SystemPlan, k: u32) -> Result<SystemPlan, PlanError> {
         system.with_all(self.cut().names().copied().zip(self.values(k)))
     }
 }

@@ -35,9 +35,6 @@ fn all(of: Quantities) -> Vec<f64> {
 
 impl SystemPlan {
     /// The oscillator with a start.
-    ///
-    /// # Errors
-    /// [`PlanError`] for an invalid system, and for a start that lies beyond a stop or is not finite.
     pub(crate) fn setup(&self, start: StartPlan) -> Result<Setup<'_, Self>, PlanError> {
         let system = self.oscillator()?;
         Ok(Setup { written: self, start: start.start(&system)?, system })

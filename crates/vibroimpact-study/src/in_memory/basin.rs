@@ -1,6 +1,7 @@
 //! A basin in memory: its tiles are joined, and the motions are in the order of the first start that leads to each.
 
 use crate::basin::{Basin, BasinPlan, start};
+use crate::map::options;
 use crate::quantity::values_of;
 use crate::study::{BasinFill, BasinTile, Basins, Cell, Fill, MachineBasin, tiles_of};
 use crate::{Block, Control, PlanError, RunError, Stopped, SystemPlan, axis};
@@ -14,9 +15,6 @@ use vibroimpact::verdict::{Census, CountedMotion, System, Undecided, UndecidedCa
 const TILE: u32 = 8192;
 
 /// Settles every start of the basin of one system, without refinement.
-///
-/// # Errors
-/// [`RunError`] for an invalid plan, for a plan that varies parameters, or when stopped.
 pub(crate) fn basin(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>) -> Result<Basin, RunError> {
     in_tiles(system, plan, control, TILE)
 }
@@ -36,7 +34,7 @@ fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: 
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // at least 1, at most 4096
     let side = f64::from(tile).powf(1.0 / f64::from(dimensions)).round().max(1.0) as u32;
     let task = BasinFill::plane(system, &BasinPlan { refine: None, ..plan.clone() }, Some(side))?;
-    let first = |k: usize| settle(osc, start(osc, plan, k as u64), &plan.options()).verdict;
+    let first = |k: usize| settle(osc, start(osc, plan, k as u64), &options(plan.impacts)).verdict;
     let Joined { motions, cells } = all(&task, first, |_, _| {}, control)?;
     let quantities = |motion: &CountedMotion| {
         let found = if plan.fields.is_empty() { None } else { of_verdict_only(osc, &motion.verdict, &plan.fields) };
@@ -46,9 +44,6 @@ fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: 
 }
 
 /// The same of a machine.
-///
-/// # Errors
-/// [`RunError`] for an invalid plan, or when stopped.
 pub(crate) fn machine_basin(
     problem: (&Machine, &Start),
     plan: &BasinPlan<String, String>,
@@ -61,7 +56,7 @@ pub(crate) fn machine_basin(
     // a start that has a motion was settled before
     let unknown = Verdict::Undecided(Undecided { why: UndecidedCause::Budget, impacts: 0, spectrum: None });
     let first = |k| {
-        let settled = settle_machine(problem.0, &task.of.start(&whole.index(k)), &plan.options());
+        let settled = settle_machine(problem.0, &task.of.start(&whole.index(k)), &options(plan.impacts));
         settled.map_or_else(|_| unknown.clone(), |settled| settled.verdict)
     };
     let seen = |block: &Block, tile: &BasinTile<MachineBasin>| {
@@ -138,7 +133,7 @@ mod tests {
         let plan = BasinPlan::plane("-4:2.25:40".parse().unwrap(), "-4:4:30".parse().unwrap(), 0.5);
         let mut census = Census::default();
         let one_by_one = |k| {
-            let verdict = settle(&osc, start(&osc, &plan, k), &plan.options());
+            let verdict = settle(&osc, start(&osc, &plan, k), &options(plan.impacts));
             census.add(&verdict.verdict)
         };
         let cells: Vec<usize> = (0..1200).map(one_by_one).collect();

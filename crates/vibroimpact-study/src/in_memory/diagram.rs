@@ -9,9 +9,6 @@ use vibroimpact::math::sort_by_key;
 pub(crate) const DIAGRAM_TILE: u32 = 4;
 
 /// Follows the motions at all values: sweeps one after another, scattered starts value by value.
-///
-/// # Errors
-/// [`RunError`] for a value that gives no system, or when stopped.
 pub(crate) fn diagram<D: Swept>(
     task: &SweepFill<D>,
     control: &Control<'_>,

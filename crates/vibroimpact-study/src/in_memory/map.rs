@@ -12,9 +12,6 @@ use vibroimpact::machine::Machine;
 const TILE: [u32; 4] = [400, 20, 7, 4];
 
 /// Settles several starts at every point of the plane, without refinement.
-///
-/// # Errors
-/// [`RunError`] for an invalid plan, or when stopped.
 pub(crate) fn map(system: &SystemPlan, plan: &MapPlan, control: &Control<'_>) -> Result<RegionMap, RunError> {
     axis::check_memory("points", &plan.axes)?;
     // the starts of a tile share lanes; smaller tiles leave more lanes empty, and larger ones leave threads without work
@@ -24,9 +21,6 @@ pub(crate) fn map(system: &SystemPlan, plan: &MapPlan, control: &Control<'_>) ->
 }
 
 /// The same of a machine.
-///
-/// # Errors
-/// [`RunError`] for an invalid plan, or when stopped.
 pub(crate) fn machine_map(
     source: &MachineSource,
     plan: &MapPlan<String, String>,
@@ -41,9 +35,6 @@ pub(crate) fn machine_map(
 }
 
 /// The motion from the start at each of many points of a machine.
-///
-/// # Errors
-/// [`RunError`] for an invalid plan, or when stopped.
 pub(crate) fn machine_points(
     source: &MachineSource,
     problem: (&Machine, &Start),
@@ -86,9 +77,10 @@ mod tests {
         let run = |threads| map(&system, &plan, &Control { threads, ..Control::default() });
         let one = run(1).unwrap();
         assert_eq!(one.points.len(), 15);
-        assert_eq!(one.at(0), [0.6, -0.5]);
-        assert_eq!(one.at(1), [plan.axes[0].over.at(1), -0.5]);
-        assert_eq!(one.at(14), [1.4, 2.0]);
+        let at = |k| crate::Axis::at(&one.axes, k);
+        assert_eq!(at(0), [0.6, -0.5]);
+        assert_eq!(at(1), [plan.axes[0].over.at(1), -0.5]);
+        assert_eq!(at(14), [1.4, 2.0]);
         for point in &one.points {
             assert!((point.iter().map(|motion| motion.share).sum::<f64>() - 1.0).abs() < 1e-12);
         }

@@ -66,10 +66,7 @@ const MOST_IMPACTS: u64 = 10_000_000;
 
 impl LyapunovPlan {
     /// Checks everything that can be checked without running the plan.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value.
-    pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
+    pub(crate) fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         let (impacts, transient) = self.lengths();
         limits::measured(Some(impacts), FEWEST_IMPACTS..=MOST_IMPACTS, Some(transient))?;
         limits::section(self.points)?;
@@ -83,14 +80,12 @@ impl LyapunovPlan {
     }
 
     /// The coordinates of the start that are on no axis.
-    #[must_use]
-    pub fn start(&self) -> StartPlan {
+    pub(crate) fn start(&self) -> StartPlan {
         self.start.unwrap_or_default()
     }
 
     /// The lengths of the transient and of the measurement.
-    #[must_use]
-    pub fn options(&self) -> ExponentOptions {
+    pub(crate) fn options(&self) -> ExponentOptions {
         let (impacts, transient) = self.lengths();
         ExponentOptions::new(impacts, transient)
     }
@@ -108,10 +103,7 @@ impl LyapunovPlan<String> {
     }
 
     /// Checks everything that can be checked without running the plan.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value.
-    pub fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
+    pub(crate) fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
         if self.points.is_some() && machine.period().is_none() {
             let sentence = "the machine has no forcing, so its attractor has no section at a phase";
             return Err(PlanError::refused(sentence));

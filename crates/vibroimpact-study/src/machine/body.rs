@@ -15,6 +15,7 @@
 //! A stop on the base has $`r = y`$, and then $`\hat F = m\omega^2 Y e^{i\varphi_y}`$.
 
 use super::BodyNumber;
+use crate::plan_text::is_usual;
 use crate::{Parameter, PlanError};
 use core::f64::consts::TAU;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -73,7 +74,7 @@ pub struct Body {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub base_acceleration_m_per_s2: Option<f64>,
     /// Phase of the base relative to the force, in radians.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "is_usual")]
     pub base_phase: f64,
     /// Whether the stops are fixed in space and do not move with the base.
     #[serde(skip_serializing_if = "core::ops::Not::not")]
@@ -82,7 +83,7 @@ pub struct Body {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stop_displacement_m: Option<f64>,
     /// Phase of the stops relative to the force, in radians.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "is_usual")]
     pub stop_phase: f64,
     /// Rotating unbalance in kg m.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -93,11 +94,6 @@ pub struct Body {
     /// Acceleration of gravity in m/s^2 towards the (first) stop; negative away from it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gravity_m_per_s2: Option<f64>,
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref)] // as serde calls it
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
 }
 
 /// A motion $`A\sin(\omega t + \varphi)`$: its amplitude in m and its phase.
@@ -145,8 +141,7 @@ impl Body {
     }
 
     /// Whether only a force acts on the body.
-    #[must_use]
-    pub const fn is_plain(&self) -> bool {
+    pub(crate) const fn is_plain(&self) -> bool {
         !self.is_shaken() && self.constant_force_n.is_none() && self.gravity_m_per_s2.is_none()
     }
 
@@ -158,11 +153,7 @@ impl Body {
     }
 
     /// The same in the one form in which it is stored.
-    ///
-    /// # Errors
-    /// [`PlanError::Missing`] names all numbers that are absent; [`PlanError::TwoForms`] names two forms of one
-    /// number, and [`PlanError::StopAndBase`] a stop that moves beside a base that does.
-    pub fn complete(&self) -> Result<Self, PlanError> {
+    pub(crate) fn complete(&self) -> Result<Self, PlanError> {
         let force_n = self.driving_force();
         let needed = [
             ("mass_kg", self.mass_kg),
@@ -228,8 +219,7 @@ impl Body {
     }
 
     /// The angular frequency of what drives the body, in rad/s.
-    #[must_use]
-    pub fn omega(&self) -> f64 {
+    pub(crate) fn omega(&self) -> f64 {
         self.frequency_hz.map(|hertz| TAU * hertz).or(self.omega_rad_per_s).unwrap_or(f64::NAN)
     }
 
@@ -246,15 +236,13 @@ impl Body {
     }
 
     /// The damping ratio.
-    #[must_use]
-    pub fn damping_ratio(&self) -> f64 {
+    pub(crate) fn damping_ratio(&self) -> f64 {
         let by_coefficient = || self.damping_ns_per_m.unwrap_or(0.0) / (2.0 * self.impedance());
         self.direct_ratio().unwrap_or_else(by_coefficient)
     }
 
     /// The coefficient of the damper in N s/m.
-    #[must_use]
-    pub fn damping_coefficient(&self) -> f64 {
+    pub(crate) fn damping_coefficient(&self) -> f64 {
         self.damping_ns_per_m.unwrap_or_else(|| 2.0 * self.direct_ratio().unwrap_or(0.0) * self.impedance())
     }
 
@@ -314,8 +302,7 @@ impl Body {
 
     /// The numbers of the machine that the body is, in the frame of its stop: the coordinate is the distance $`x - r`$ from its
     /// motion. They are not checked.
-    #[must_use]
-    pub fn one_coordinate(&self) -> OneCoordinate {
+    pub(crate) fn one_coordinate(&self) -> OneCoordinate {
         let [m, k, gap, e] =
             [self.mass_kg, self.stiffness_n_per_m, self.gap_m, self.restitution].map(|value| value.unwrap_or(f64::NAN));
         let c = self.damping_coefficient();
@@ -470,8 +457,7 @@ impl Body {
     }
 
     /// The value of a parameter, of its own or of its oscillator; `None` if it does not have it.
-    #[must_use]
-    pub fn value(&self, parameter: Parameter) -> Option<f64> {
+    pub(crate) fn value(&self, parameter: Parameter) -> Option<f64> {
         match (parameter, parameter.of_oscillator()) {
             (Parameter::Body(number), _) => number.get(self),
             (_, of) => of?.get(&self.reduction().ok()?.oscillator),
@@ -485,11 +471,11 @@ impl Body {
     /// The line along which a parameter varies, and all other numbers of the body do not, but for one that changes by a
     /// rate when the parameter changes by 1. The numbers of the oscillator change together: with the mass, the frequency
     /// ratio and, for a given damping coefficient, the damping ratio.
-    ///
-    /// # Errors
-    /// [`SystemError::NoSecondStop`] for a parameter that the body does not have, [`SystemError::Together`] for two that
-    /// are the same, [`SystemError::Rate`] for a rate that is not finite.
-    pub fn line(self, parameter: Parameter, also: Option<(Parameter, f64)>) -> Result<ParameterPath, SystemError> {
+    pub(crate) fn line(
+        self,
+        parameter: Parameter,
+        also: Option<(Parameter, f64)>,
+    ) -> Result<ParameterPath, SystemError> {
         let from = self.known(parameter)?;
         let also = match also {
             Some((other, _)) if parameter.same_number(other) => {
@@ -511,19 +497,13 @@ impl Body {
     }
 
     /// The plane in which two parameters vary, and all other numbers of the body do not.
-    ///
-    /// # Errors
-    /// [`SystemError::NoSecondStop`] for a parameter that the body does not have.
-    pub fn plane(self, (first, second): (Parameter, Parameter)) -> Result<ParameterPlane, SystemError> {
+    pub(crate) fn plane(self, (first, second): (Parameter, Parameter)) -> Result<ParameterPlane, SystemError> {
         let at = move |[p, q]: [f64; 2]| Ok(self.with(first, p)?.with(second, q)?.reduction()?.oscillator);
         Ok(OscillatorFamily::new(at, [self.known(first)?, self.known(second)?]).into())
     }
 }
 
 /// Checks that a number is given in one of its forms at most.
-///
-/// # Errors
-/// [`PlanError::TwoForms`] if there are two.
 fn one_of(forms: &[(&'static str, Option<f64>)]) -> Result<(), PlanError> {
     let mut given = forms.iter().filter(|(_, value)| value.is_some());
     match (given.next(), given.next()) {

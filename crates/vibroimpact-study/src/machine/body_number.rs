@@ -92,8 +92,7 @@ impl BodyNumber {
     }
 
     /// The number with this name.
-    #[must_use]
-    pub fn from_name(name: &str) -> Option<Self> {
+    pub(crate) fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|number| number.name() == name)
     }
 
@@ -110,14 +109,12 @@ impl BodyNumber {
     }
 
     /// Its unit in the notation of UDUNITS; `1` for a number.
-    #[must_use]
-    pub const fn udunits(self) -> &'static str {
+    pub(crate) const fn udunits(self) -> &'static str {
         self.words()[3]
     }
 
     /// Whether two of them determine the same number, so that only one of them can vary.
-    #[must_use]
-    pub fn same_number(self, other: Self) -> bool {
+    pub(crate) fn same_number(self, other: Self) -> bool {
         let group = |number| match number {
             Self::DampingCoefficient | Self::DampingRatio => Self::DampingRatio,
             Self::BaseDisplacement | Self::BaseVelocity | Self::BaseAcceleration => Self::BaseDisplacement,
@@ -130,8 +127,7 @@ impl BodyNumber {
 
     /// Its value, of a complete body; `None` for a second stop, or for symmetric stops, that the body does not have. A number that is
     /// given has all its digits.
-    #[must_use]
-    pub fn get(self, body: &Body) -> Option<f64> {
+    pub(crate) fn get(self, body: &Body) -> Option<f64> {
         let given = *self.place(&mut { *body });
         let omega = body.omega();
         Some(match self {

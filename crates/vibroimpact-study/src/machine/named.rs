@@ -25,7 +25,7 @@ impl<T> Named<T> {
     }
 
     /// The value of a name, to be changed.
-    pub fn get_mut(&mut self, name: &str) -> Option<&mut T> {
+    pub(crate) fn get_mut(&mut self, name: &str) -> Option<&mut T> {
         self.0.iter_mut().find(|(known, _)| known == name).map(|(_, value)| value)
     }
 
@@ -36,13 +36,12 @@ impl<T> Named<T> {
     }
 
     /// Whether there are none.
-    #[must_use]
-    pub const fn is_empty(&self) -> bool {
+    pub(crate) const fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
     /// Sets the value of a name, which is appended if it is new.
-    pub fn set(&mut self, name: &str, value: T) {
+    pub(crate) fn set(&mut self, name: &str, value: T) {
         match self.get_mut(name) {
             Some(place) => *place = value,
             None => self.0.push((name.to_owned(), value)),

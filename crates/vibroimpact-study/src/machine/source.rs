@@ -154,9 +154,6 @@ impl MachineSource {
     }
 
     /// The same machine with other numbers at several paths, one after another.
-    ///
-    /// # Errors
-    /// As [`with`](Self::with).
     pub(crate) fn with_all<'a>(
         &self,
         changes: impl IntoIterator<Item = (&'a str, f64)>,
@@ -203,10 +200,7 @@ impl MachineSource {
 
     /// The numbers by which a machine of this file can be changed one at a time: the parameters, and the numbers that are written as
     /// such and are not 0, without directions and shapes of modes.
-    ///
-    /// # Errors
-    /// As [`Self::paths`].
-    pub fn free_numbers(&self) -> Result<Named<f64>, MachineFileError> {
+    pub(crate) fn free_numbers(&self) -> Result<Named<f64>, MachineFileError> {
         let mut copy = self.machine.clone();
         let written: BTreeSet<String> = (numbers(&mut copy).into_iter())
             .filter(|(path, number)| {

@@ -5,6 +5,7 @@ use super::named::Named;
 use super::number::NumberText;
 use super::places::NUMBER_ALONE;
 use super::shapes::VectorText;
+use crate::plan_text::is_usual;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::events::{ContactStart, Start};
@@ -55,13 +56,8 @@ pub struct ContactText {
     /// What it does; open if absent.
     pub state: ContactWord,
     /// How far the surface of a damped stop stands back that has opened by force; 0 if absent.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "is_usual")]
     pub surface: f64,
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref)] // serde passes a reference
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
 }
 
 impl ContactText {

@@ -13,17 +13,11 @@ pub(crate) enum StartAxis {
 
 impl StartAxis {
     /// The place with this name.
-    ///
-    /// # Errors
-    /// [`PlanError::Refused`] if it is no part of a start of the machine.
     pub(crate) fn of(machine: &Machine, vary: &str) -> Result<Self, PlanError> {
         Self::found(machine, vary)?.ok_or_else(|| Self::unknown(machine, vary))
     }
 
     /// The place with this name; `None` for the path of something else.
-    ///
-    /// # Errors
-    /// [`PlanError::Refused`] for a coordinate or velocity that the machine does not have.
     pub(crate) fn found(machine: &Machine, vary: &str) -> Result<Option<Self>, PlanError> {
         let names = &machine.parts().coordinates;
         let of = |name: &str| {

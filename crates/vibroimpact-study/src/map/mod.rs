@@ -60,13 +60,6 @@ impl<V, F> RegionMap<V, F> {
         self.axes.iter().map(|axis| &axis.vary).chain(self.columns.iter().map(|column| &column.vary))
     }
 
-    /// Its values at point number `k`.
-    #[must_use]
-    pub fn at(&self, k: usize) -> Vec<f64> {
-        let columns = self.columns.iter().map(|column| column.values[k]);
-        Axis::at(&self.axes, k as u64).into_iter().chain(columns).collect()
-    }
-
     /// All motions, point by point.
     pub fn motions(&self) -> impl Iterator<Item = &Share> {
         self.points.iter().flatten()

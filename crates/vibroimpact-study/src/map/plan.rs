@@ -47,9 +47,6 @@ const MOST_AXES: usize = 4;
 const MOST_REFINE: u32 = 64;
 
 /// Checks the distance between the points of the coarse grid.
-///
-/// # Errors
-/// [`PlanError::OutOfRange`] for an invalid distance.
 pub(crate) fn check_refine(refine: Option<u32>) -> Result<(), PlanError> {
     let hint = ": the distance, in points, of the coarse grid to begin with";
     limits::given("refine", refine, 2..=MOST_REFINE).map_err(|error| error.hinted(hint))
@@ -59,15 +56,11 @@ pub(crate) fn check_refine(refine: Option<u32>) -> Result<(), PlanError> {
 const MOST_IMPACTS: u32 = 1_000_000;
 
 /// Checks the number of impacts for which each start is followed.
-///
-/// # Errors
-/// [`PlanError::OutOfRange`] for 0 or more than a million.
 pub(crate) fn check_impacts(impacts: Option<u32>) -> Result<(), PlanError> {
     limits::given("impacts", impacts, 1..=MOST_IMPACTS)
 }
 
 /// The options with which each start is followed.
-#[must_use]
 pub(crate) fn options(impacts: Option<u32>) -> SettleOptions {
     impacts.map_or_else(SettleOptions::default, SettleOptions::at_most)
 }
@@ -101,10 +94,7 @@ impl MapPlan {
     }
 
     /// Checks everything that can be checked without running the plan.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value: invalid axes, or a corner that is no valid system.
-    pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
+    pub(crate) fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         if let Some(axis) = self.axes.iter().find(|axis| axis.vary.is_start()) {
             let (task, name) = ("map", axis.vary.name().into());
             return Err(PlanError::WrongAxis { task, name, known: "the parameters of the system" });
@@ -119,12 +109,6 @@ impl MapPlan {
         Ok(())
     }
 
-    /// The options with which each start is followed.
-    #[must_use]
-    pub fn options(&self) -> SettleOptions {
-        options(self.impacts)
-    }
-
     /// The oscillator at a point, given by its place on each axis. Other parameters are those of `system`.
     ///
     /// # Errors
@@ -136,10 +120,7 @@ impl MapPlan {
 
 impl MapPlan<String, String> {
     /// Checks everything that can be checked without running the plan.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value.
-    pub fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
+    pub(crate) fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
         axis::check("map", &self.axes, (1, MOST_AXES))?;
         for axis in &self.axes {
             source.number(&axis.vary)?;

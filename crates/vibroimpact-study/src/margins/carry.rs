@@ -50,9 +50,6 @@ const REPEATS: f64 = 1e-5;
 /// A motion that sticks is determined by its release: it has the same label and sticks on the same stops in the same
 /// order. Any other motion solves the equations of its impacts by Newton's method; the solution counts if it is close
 /// to `before`, admissible and stable.
-///
-/// # Errors
-/// [`Loss`] if there is no such motion.
 pub(super) fn carry(osc: &Oscillator, before: &Cycle) -> Result<Cycle, Loss> {
     if let Some(rest) = before.rests.last() {
         let usual = u32::try_from(before.points.len() + before.rests.len()).unwrap_or(u32::MAX);

@@ -68,8 +68,7 @@ impl<V> Default for MarginsPlan<V> {
 
 impl MarginsPlan {
     /// Where the motion starts.
-    #[must_use]
-    pub fn start(&self) -> StartPlan {
+    pub(crate) fn start(&self) -> StartPlan {
         self.start.unwrap_or_default()
     }
 
@@ -103,10 +102,7 @@ impl MarginsPlan {
     }
 
     /// Checks everything that can be checked without running the plan.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value.
-    pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
+    pub(crate) fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         match &self.label {
             Some(_) if self.start() != StartPlan::default() => {
                 let sentence = "the motion is given twice, by its label and by a start";
@@ -137,9 +133,6 @@ impl MarginsPlan {
 
 impl<V: Name> MarginsPlan<V> {
     /// The numbers that vary, with their ranges and scales.
-    ///
-    /// # Errors
-    /// [`PlanError`] for an invalid system, or for a number that it does not have.
     pub(crate) fn scopes<D: Dynamics<Name = V>>(&self, system: &D) -> Result<Vec<Scope<V>>, PlanError> {
         if !self.vary.is_empty() {
             return self.vary.iter().map(|one| system.scope(one, self.within)).collect();
@@ -151,9 +144,6 @@ impl<V: Name> MarginsPlan<V> {
 
 impl MarginsPlan<String> {
     /// Checks everything that can be checked without running the plan.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value.
     pub(crate) fn check(&self, of: &Setup<'_, MachineSource>) -> Result<(), PlanError> {
         check_within(self.within)?;
         of.check_orbit((self.label.as_deref(), None), false)?;

@@ -97,9 +97,6 @@ impl Scope {
     /// The range and the scale of a parameter. A value 0 has no ratio to other values: a gap of 0 has the scale 1, and
     /// a damping of 0 the scale 0.1; the range then extends by the scale times `within - 1`. A restitution has the
     /// range 0 to 1.
-    ///
-    /// # Errors
-    /// [`PlanError`] for an invalid system, or for a parameter of a second stop if there is none.
     pub(crate) fn new(system: &SystemPlan, varied: ScaledParameter, within: f64) -> Result<Self, PlanError> {
         let ScaledParameter { parameter, scale } = varied;
         let value = system.value(parameter)?;

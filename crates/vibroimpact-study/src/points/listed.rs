@@ -26,9 +26,6 @@ pub(super) fn length(count: u64) -> usize {
 }
 
 /// Checks that there are points, that all columns have the same length, and that their values are finite.
-///
-/// # Errors
-/// [`PlanError`] for the first column that is invalid.
 pub(super) fn check<V: Clone + Into<Cow<'static, str>>>(columns: &[ListedColumn<V>]) -> Result<(), PlanError> {
     let name = |column: &ListedColumn<V>| -> Cow<'static, str> { column.vary.clone().into() };
     let count = columns.first().map_or(0, |column| column.values.len());

@@ -33,10 +33,7 @@ const MOST: u64 = 10_000_000;
 
 impl ManyPlan<String> {
     /// Checks everything that can be checked without running the plan.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value.
-    pub fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
+    pub(crate) fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
         self.points.check_values()?;
         limits::check("points", self.points.count(), 1..=MOST)?;
         check_fields(machine, &self.fields)?;

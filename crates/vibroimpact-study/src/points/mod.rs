@@ -114,13 +114,12 @@ impl<V: Clone + Into<Cow<'static, str>>> PointsPlan<V> {
 
 impl PointsPlan {
     /// Whether all points belong to one system.
-    #[must_use]
-    pub fn one_system(&self) -> bool {
+    pub(crate) fn one_system(&self) -> bool {
         self.varied().all(Coordinate::is_start)
     }
 
     /// The parameters of the system at point number `k`.
-    pub fn parameters(&self, k: usize) -> impl Iterator<Item = (Parameter, f64)> + '_ {
+    pub(crate) fn parameters(&self, k: usize) -> impl Iterator<Item = (Parameter, f64)> + '_ {
         (0..self.width()).filter_map(move |column| match self.vary(column) {
             Coordinate::Parameter(parameter) => Some((parameter, self.at(column, k))),
             _ => None,
@@ -128,8 +127,7 @@ impl PointsPlan {
     }
 
     /// The start at point number `k`; coordinates that do not vary are those of `start`.
-    #[must_use]
-    pub fn start(&self, start: &StartPlan, k: usize) -> StartPlan {
+    pub(crate) fn start(&self, start: &StartPlan, k: usize) -> StartPlan {
         let mut there = *start;
         for (column, vary) in self.varied().enumerate() {
             vary.place(&mut there, || self.at(column, k));
@@ -139,9 +137,6 @@ impl PointsPlan {
 
     /// Checks the number of points and their values, and that `valid` accepts each listed point, or the corners
     /// of the box from which points are drawn.
-    ///
-    /// # Errors
-    /// [`PlanError`] for the first error; those of a point name its number.
     pub(crate) fn check(
         &self,
         system: &SystemPlan,
@@ -190,10 +185,12 @@ impl PointsPlan {
     }
 
     /// The oscillator and the start at point number `k`; other numbers are those of `system` and `start`.
-    ///
-    /// # Errors
-    /// [`PlanError`] for an invalid system or start.
-    pub fn problem(&self, system: &SystemPlan, start: &StartPlan, k: usize) -> Result<(Oscillator, Start), PlanError> {
+    pub(crate) fn problem(
+        &self,
+        system: &SystemPlan,
+        start: &StartPlan,
+        k: usize,
+    ) -> Result<(Oscillator, Start), PlanError> {
         let there = if self.one_system() { *system } else { system.with_all(self.parameters(k))? };
         let osc = there.oscillator()?;
         Ok((osc, self.start_in((system, &there), start, k).start(&osc)?))

@@ -64,15 +64,11 @@ impl ResponsePlan {
 
 impl<V: Name, Q: Name> ResponsePlan<V, Q> {
     /// The line over which the number varies, from the smaller to the larger end.
-    #[must_use]
-    pub fn cut(&self) -> Cut<V> {
+    pub(crate) fn cut(&self) -> Cut<V> {
         Cut { vary: self.vary.clone(), ends: self.over.extent(), also: None }
     }
 
     /// Checks everything that can be checked without running the plan.
-    ///
-    /// # Errors
-    /// [`PlanError`] names the first invalid value.
     pub(crate) fn check<D>(&self, of: &Setup<'_, D>) -> Result<(), PlanError>
     where
         D: Dynamics<Name = V, Quantity = Q>,

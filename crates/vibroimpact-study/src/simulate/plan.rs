@@ -31,8 +31,7 @@ pub struct SimulatePlan {
 
 impl SimulatePlan {
     /// The number of impacts, of a machine of events, to follow, with defaults applied.
-    #[must_use]
-    pub fn most_impacts(&self) -> u64 {
+    pub(crate) fn most_impacts(&self) -> u64 {
         self.impacts.unwrap_or(if self.limits_time() { MOST_IMPACTS } else { DEFAULT_IMPACTS })
     }
 

@@ -7,7 +7,7 @@ use super::refine::{self, Cell};
 use super::remarks;
 use crate::field::{Column, Extra, Field, NumberType};
 use crate::grid::Index;
-use crate::map::motions;
+use crate::map::{motions, options};
 use crate::quantity;
 use crate::{Block, MapPlan, PlanError, Share, SystemPlan, Unit};
 use vibroimpact::Oscillator;
@@ -100,7 +100,7 @@ impl Mapped for OscillatorMap {
 impl MapFill<OscillatorMap> {
     pub(crate) fn new(system: &SystemPlan, plan: &MapPlan, tile: Option<u32>) -> Self {
         let over = Over::usual(&plan.axes, tile, side(TILE, plan.axes.len()));
-        let mapped = OscillatorMap { system: *system, plan: plan.clone(), options: plan.options() };
+        let mapped = OscillatorMap { system: *system, plan: plan.clone(), options: options(plan.impacts) };
         Self::of(mapped, over, plan.starts, plan.refine)
     }
 }

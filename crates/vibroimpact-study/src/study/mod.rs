@@ -162,8 +162,7 @@ impl Study {
     /// order. They are those of the tiles without refinement: the results of a point do not depend on the points beside
     /// it. `None` if stopped, and for studies of which only whole tiles are computed. `tick` is called for each point and
     /// returns whether to stop.
-    #[must_use]
-    pub fn points(&self, points: &[usize], tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
+    pub(crate) fn points(&self, points: &[usize], tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
         let whole = self.grid().whole();
         let points: Vec<_> = points.iter().map(|k| whole.index(*k)).collect();
         self.fill.points(&points, tick).map(|columns| self.stored(columns))

@@ -42,8 +42,7 @@ pub enum Value {
 
 impl Value {
     /// The value of a motion with this label.
-    #[must_use]
-    pub fn of(label: &str, number: Option<f64>) -> Self {
+    pub(crate) fn of(label: &str, number: Option<f64>) -> Self {
         match number {
             Some(number) if number.is_finite() => Self::Finite(number),
             Some(number) if number.is_infinite() => Self::Infinite,
@@ -78,8 +77,7 @@ impl Value {
 
 impl Of {
     /// The word of `--of`.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Largest => "largest",
             Self::Smallest => "smallest",

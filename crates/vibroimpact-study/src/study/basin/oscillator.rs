@@ -4,6 +4,7 @@ use super::{BasinFill, BasinTile, Basins};
 use crate::field::{Column, Field, NumberType};
 use crate::grid::{Block, Grid};
 use crate::limits::MOST_STARTS;
+use crate::map::options;
 use crate::quantity::{self, Quantities, Quantity};
 use crate::study::cycles::Numbered;
 use crate::study::fill::spread;
@@ -68,7 +69,7 @@ pub(super) const WORTH_A_SURVEY: u64 = 500;
 impl BasinFill<OscillatorBasin> {
     pub(crate) fn plane(system: &SystemPlan, plan: &BasinPlan, tile: Option<u32>) -> Result<Self, PlanError> {
         let osc = if plan.one_system() { Some(system.oscillator()?) } else { None };
-        Ok(Self::over((system, osc), Starts::Grid(plan.clone()), (plan.refine, plan.options()), tile))
+        Ok(Self::over((system, osc), Starts::Grid(plan.clone()), (plan.refine, options(plan.impacts)), tile))
     }
 
     pub(crate) fn scattered(
