@@ -6,7 +6,6 @@ use crate::continuation::curves::Ranges;
 use crate::continuation::machine::branches::MachineEquations;
 use crate::continuation::trace::equations::Equations;
 use crate::machine::Machine;
-use crate::math::Lu;
 use crate::orbit::{MachineFrame, MachineRing};
 
 /// The equations of a curve. The unknowns are phases and states of the events and, last, the two numbers.
@@ -106,10 +105,6 @@ const ALONG: f64 = 1e-4;
 impl Equations for CurveEquations {
     fn weights(&self) -> &[f64] {
         self.events.weights()
-    }
-
-    fn factors(&self, rows: Vec<f64>) -> Option<Lu> {
-        self.events.factors(rows)
     }
 
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
