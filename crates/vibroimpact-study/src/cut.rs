@@ -128,7 +128,7 @@ impl Cut<String> {
             endless(path, (*from, *to))?;
             source.number(path)?;
         }
-        self.source(source, self.ends.1)?.parts()?;
+        self.source(source, self.ends.1)?.machine()?;
         Ok(())
     }
 }

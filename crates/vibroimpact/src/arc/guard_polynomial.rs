@@ -47,6 +47,12 @@ impl GuardPolynomial {
         Self { p, known: 0, error: 0.0, size: 1.0, from: None }
     }
 
+    /// Whether it does not change over the window: then it falls nowhere, also where it is zero. A free body that rests beside an open stop
+    /// touches it for ever.
+    pub(super) fn is_constant(&self) -> bool {
+        self.p[1..].iter().all(|p| *p == 0.0)
+    }
+
     /// Whether it is nowhere below zero by more than so many rounding errors, of itself or a larger one, over the whole window.
     pub(super) fn is_flat(&self, roundings: f64, larger: f64) -> bool {
         let mut q = self.p;

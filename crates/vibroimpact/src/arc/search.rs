@@ -260,7 +260,9 @@ fn search(
             } else {
                 0.0
             };
-            let passes = is_quiet && flight.guards[g].known > HIGHEST || touched[g] && of.is_flat(FLAT, larger);
+            let passes = is_quiet && flight.guards[g].known > HIGHEST
+                || touched[g] && of.is_flat(FLAT, larger)
+                || of.is_constant();
             buffers.polynomials.push(if passes { GuardPolynomial::passed() } else { of });
         }
         let Some((near, g)) = first_of(&mut buffers.polynomials) else {

@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 use vibroimpact::events::{End, Event, EventKind, Limits, Motion, Start};
-use vibroimpact::machine::{Machine, MachineParts};
+use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::verdict::{Count, SettleOptions, Verdict, settle_machine};
 
 fn events(machine: &Machine, start: &Start, most: usize) -> (Vec<Event>, Option<End>) {
@@ -345,6 +345,35 @@ fn a_bar_on_its_feet_comes_to_rest_flat() {
             let sticks = seen.iter().filter(|event| event.kind == EventKind::Stick && event.time == last.time);
             assert_eq!(sticks.count(), feet.len());
             assert_speeds(&seen);
+        }
+    }
+}
+
+/// A ball gives all its speed to another one and rests exactly beside a spring, whose gap is zero and stays so: the search for the wall that the
+/// other one strikes next ran out of its steps.
+#[test]
+fn a_body_at_rest_beside_an_open_stop_hides_no_event() {
+    let soft = StopLaw::Compliant { stiffness: 30.0, damping: 0.0, preload: 0.0, opening: Opening::Force };
+    for gap in [0.0, 0.1] {
+        let parts = MachineParts::new(["b0", "b1"])
+            .with_mass(0, 1.0)
+            .with_mass(1, 1.0)
+            .with_rigid_stop("balls", &[1.0, -1.0], -gap, 1.0)
+            .with_stop("spring", &[0.0, 1.0], gap, soft)
+            .with_rigid_stop("wall", &[-1.0, 0.0], 0.5, 1.0);
+        let machine = Machine::new(parts).unwrap();
+        let start = Start { q: vec![0.0, gap], qdot: vec![0.0, -1.0], ..Start::default() };
+        let (found, end) = events(&machine, &start, 5);
+        let told: Vec<(EventKind, usize, f64)> = found.iter().map(|of| (of.kind, of.place, of.time)).collect();
+        let (impact, half) = (EventKind::Impact, PI / 30.0_f64.sqrt());
+        let wanted =
+            [(impact, 0, 0.0), (impact, 2, 0.5), (impact, 0, 1.0), (EventKind::Close, 1, 1.0), (impact, 0, 1.0 + half)];
+        assert_eq!(told.len(), wanted.len(), "{told:?} {end:?}");
+        for (told, wanted) in told.iter().zip(&wanted) {
+            assert!(
+                (told.0, told.1) == (wanted.0, wanted.1) && (told.2 - wanted.2).abs() < 1e-14,
+                "{told:?} {wanted:?}"
+            );
         }
     }
 }
