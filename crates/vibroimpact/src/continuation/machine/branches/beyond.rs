@@ -144,7 +144,7 @@ pub(super) fn across(
 /// nothing of them. As they are if they do not go on to it.
 pub(super) fn from_first(next: Tracer<MachineProblem>, number: f64, options: &BranchOptions) -> Tracer<MachineProblem> {
     let found = last(&next.here.w);
-    let near = 2.0 * A_LITTLE[A_LITTLE.len() - 1] * next.problem.equations.scales[0];
+    let near = 2.0 * BESIDE[BESIDE.len() - 1] * next.problem.equations.scales[0];
     let solution = |value: f64| next.on_end(&next.here.w, value).map(|(w, _)| w);
     let exists =
         |value: f64| solution(value).and_then(|w| next.problem.known(&w)).is_some_and(|known| known.physical());
