@@ -152,25 +152,20 @@ impl EventBranch {
         let closings = cycle.counts.iter().sum::<u32>();
         // a contact has two events, its beginning and its end
         let all = closings as usize == impacts.sum::<usize>() && ring.len() <= 2 * gone.len();
-        let stops = gone.iter().map(|k| ring.events[*k].guard.place(machine.stops().len()));
-        stops.filter(|_| all).min()
+        let stop = |k: &usize| Some(ring.events.get(*k)?.guard.place(machine.stops().len()));
+        gone.iter().filter_map(stop).filter(|_| all).min()
     }
 
-    /// Whether a cycle loses its only events with a hold that takes no time any more: the machine swings on without events, which is no
-    /// ring.
-    fn fades(&self, at: &MachineSolution, found: &Difference) -> bool {
-        let (ring, stops) = (&self.tracer.problem.equations.ring, |event: &RingEvent| event.back.len());
-        let Difference::Rest { place, joint: true, begins: false } = *found else { return false };
-        let held = |k: usize| ring.events[k].after[place].constrains();
-        let own = ring.events.iter().all(|event| event.guard.place(stops(event)) == place);
-        own && ring.len() == 2
-            && (0..2).filter(|k| held(*k)).count() == 1
-            && self
-                .tracer
-                .problem
-                .equations
-                .split(&at.w)
-                .is_some_and(|(_, ring)| (0..2).any(|k| held(k) && ring.theta(k + 1) - ring.theta(k) < SHORT))
+    /// The joint of the only hold of a cycle without other events, if it ends because it takes no time any more: the machine swings on without
+    /// events, and a cycle of the equations has some.
+    fn fades(&self, at: &MachineSolution, found: &Difference) -> Option<usize> {
+        let Difference::Rest { place, joint: true, begins: false } = *found else { return None };
+        let (machine, ring) = self.tracer.problem.equations.split(&at.w)?;
+        let own = ring.events.iter().all(|event| event.guard.place(machine.stops().len()) == place);
+        let mut holds = (0..ring.len()).filter(|k| ring.events[*k].after[place].constrains());
+        let (hold, others) = (holds.next()?, holds.next());
+        let brief = ring.theta(hold + 1) - ring.theta(hold) < SHORT;
+        (own && ring.len() == 2 && others.is_none() && brief).then_some(place)
     }
 
     /// The corner that it is if an impact appears at the time of another one and no cycle with it exists close by: a contact without
@@ -241,17 +236,13 @@ impl EventBranch {
 
     /// Reports the change of the events at `at` and goes on with the events beyond: with `next`, if that is known.
     pub(super) fn pass(&mut self, at: &MachineSolution, found: &Difference, next: Option<Tracer<MachineProblem>>) {
-        if let Some(stop) = self.lost(at, found) {
+        if let Some(stop) = self.lost(at, found).or_else(|| self.fades(at, found)) {
             return self.end(at, BranchEvent::LossOfContact { stop, detail: None });
         }
-        if self.fades(at, found) {
-            let Difference::Rest { place: stop, .. } = *found else { return };
-            return self.end(at, BranchEvent::LossOfContact { stop, detail: None });
-        }
-        let of_rest = matches!(found, Difference::Rest { .. } | Difference::Other { .. });
-        if of_rest && self.rests(at) {
+        if matches!(found, Difference::Rest { .. } | Difference::Other { .. }) && self.rests(at) {
             return;
         }
+        let of_rest = matches!(found, Difference::Rest { joint: false, .. } | Difference::Other { .. });
         // how many impacts of a chatter are followed is no property of the cycle
         if of_rest && let Some(next) = same_beyond(&self.tracer, at, &self.path.options) {
             return self.exchange(next);
