@@ -334,7 +334,7 @@ impl<D: Told> AnswerOf<D> {
     /// As [`Self::cut`].
     pub fn branches<'a>(&'a self, found: &'a BranchesOf<D>) -> Result<BranchAnswer<'a>, PlanError> {
         let cut = self.cut()?;
-        Ok(BranchAnswer::new(self, found, &cut, D::shown_on_branches(self, found, &cut)))
+        Ok(BranchAnswer::new(self, found, &cut, D::shown_on_branches(self, found, &cut).as_ref()))
     }
 
     /// The same without quantities of its points, for the text.

@@ -212,11 +212,11 @@ impl<'a> BranchAnswer<'a> {
         of: &'a AnswerOf<D>,
         found: &'a BranchesOf<D>,
         cut: &Cut<D::Name>,
-        show: Option<D::Shown>,
+        show: Option<&D::Shown>,
     ) -> Self {
         let units = &of.units;
         let along = (&of.written, &of.system, units);
-        let branch = |points, start| BranchObject::new::<D>(along, (points, start), cut, show.as_ref());
+        let branch = |points, start| BranchObject::new::<D>(along, (points, start), cut, show);
         let unit = cut.vary.unit(units);
         let origin = |origin: &'a Origin<PointOf<D>>| {
             let point = branch(core::slice::from_ref(&origin.point), None);
@@ -238,7 +238,7 @@ impl<'a> BranchAnswer<'a> {
             branches: found.followed.iter().map(whole).collect(),
             stability: found.chosen.stability,
             lost: found.lost.iter().map(origin).collect(),
-            quantity: show.clone().and_then(path),
+            quantity: show.cloned().and_then(path),
         }
     }
 }
