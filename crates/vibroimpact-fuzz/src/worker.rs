@@ -8,7 +8,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// The task of a worker, in the order of its [`words`](Self::words).
+/// The task of a worker, in the order of its words on the command line.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 pub struct Job {
     /// The family of the cases.

@@ -288,12 +288,7 @@ fn impacts_that_move_a_joint() {
 
 /// A press: its ram, guided with friction in the frame, strikes a die at the frame.
 fn press(frequency_hz: f64) -> Machine {
-    let law = vibroimpact::machine::StopLaw::Compliant {
-        stiffness: 5e6,
-        damping: 400.0,
-        preload: 0.0,
-        opening: vibroimpact::machine::Opening::Force,
-    };
+    let law = StopLaw::Compliant { stiffness: 5e6, damping: 400.0, preload: 0.0, opening: Opening::Force };
     let parts = MachineParts::new(["frame", "ram"])
         .with_mass(0, 200.0)
         .with_mass(1, 50.0)
