@@ -59,10 +59,10 @@ impl Bucket {
         Self::with(place, std::env::vars_os().filter_map(words))
     }
 
-    /// As [`Bucket::new`], but with the given variables instead of the environment.
+    /// As `Bucket::new`, but with the given variables instead of the environment.
     ///
     /// # Errors
-    /// As [`Bucket::new`].
+    /// As `Bucket::new`.
     pub fn with(place: &str, variables: impl IntoIterator<Item = (String, String)>) -> Result<Self, StoreError> {
         let refused = |why: String| StoreError::Unreachable { place: place.to_owned(), why };
         let rest = place.strip_prefix("s3://").unwrap_or_default();
