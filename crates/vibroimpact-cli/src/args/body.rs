@@ -157,10 +157,10 @@ impl BodyArgs {
 
     /// Refuses several values of a number.
     pub(super) fn one_value(&self, hint: &str) -> Result<(), Failure> {
-        let mut several = self.ranges().map(|(number, given)| (flag(Parameter::Body(number)), given));
-        let other = [("log-decrement", &self.log_decrement), ("omega-rad-per-s", &self.omega_rad_per_s)];
-        let mut other = other.into_iter().filter_map(|(flag, given)| Some((flag, given.as_ref()?)));
-        let Some((flag, given)) = several.next().or_else(|| other.find(|(_, given)| !given.is_one())) else {
+        let numbers = self.ranges().map(|(number, given)| (flag(Parameter::Body(number)), given));
+        let others = [("log-decrement", &self.log_decrement), ("omega-rad-per-s", &self.omega_rad_per_s)];
+        let others = others.into_iter().filter_map(|(flag, given)| Some((flag, given.as_ref()?)));
+        let Some((flag, given)) = numbers.chain(others).find(|(_, given)| !given.is_one()) else {
             return Ok(());
         };
         let hint = hint.replace("FLAG", flag);

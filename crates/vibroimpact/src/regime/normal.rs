@@ -115,8 +115,13 @@ impl Normal {
     /// The largest way and velocity along a stop or joint, in the units of the machine, of a motion whose mass-normalised coordinates and
     /// velocities have these sizes.
     pub(crate) fn along(&self, contact: usize, (size, speed): (f64, f64)) -> (f64, f64) {
-        let length = self.squares[contact].sqrt();
+        let length = self.length(contact);
         (length * size, length * speed)
+    }
+
+    /// The length of the direction of a stop or joint.
+    pub(crate) fn length(&self, contact: usize) -> f64 {
+        self.squares[contact].sqrt()
     }
 
     /// Coordinates, or velocities, from the mass-normalised ones.

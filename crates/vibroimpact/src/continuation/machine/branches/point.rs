@@ -50,7 +50,7 @@ pub(super) fn without_speed(machine: &Machine, ring: &MachineRing, speed: f64) -
         };
         let place = ring.place(*k);
         let after = place.gap(&normal, &place.turns(&normal), stop).1.abs();
-        !bounces.contains(k) && share > 0.0 && after <= share * WITHOUT_SPEED * normal.along(stop, (0.0, speed)).1
+        !bounces.contains(k) && share > 0.0 && after <= share * WITHOUT_SPEED * (normal.length(stop) * speed)
     };
     (0..ring.len()).filter(slow).collect()
 }

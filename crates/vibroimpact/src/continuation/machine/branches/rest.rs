@@ -158,7 +158,7 @@ pub(crate) fn rest_zero(
 /// The size of a guard: the largest velocity, or that of the terms of a force.
 pub(crate) fn size(frame: &MachineFrame<'_>, place: &Place, guard: GuardKind, speed: f64) -> f64 {
     match guard {
-        GuardKind::Sliding(joint) => frame.normal.along(frame.machine.stops().len() + joint, (0.0, speed)).1,
+        GuardKind::Sliding(joint) => frame.normal.length(frame.machine.stops().len() + joint) * speed,
         _ => pressed(frame, place, guard).map_or(1.0, |pressed| pressed.size),
     }
 }

@@ -93,7 +93,7 @@ pub(crate) fn rate(
     largest: f64,
 ) -> f64 {
     let guard = ring.events[k].guard;
-    let length = frame.normal.along(guard.place(frame.machine.stops().len()), (1.0, 1.0)).1;
+    let length = frame.normal.length(guard.place(frame.machine.stops().len()));
     // a force along a contact accelerates the mass-normalised coordinates by it times the length of the direction
     let unit = if guard.of_force() { 1.0 / length } else { length };
     -flight.late[0] * ring.frequency(frame.machine) / (largest * unit)

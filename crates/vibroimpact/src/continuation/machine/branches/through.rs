@@ -272,6 +272,9 @@ pub(super) fn through_hold(
     // from the last to the first, so that the places of earlier events stay valid
     sort_by(&mut zeros, |a, b| b.at.cmp(&a.at));
     zeros.dedup_by_key(|limit| limit.at);
+    if zeros.is_empty() {
+        return None;
+    }
     let mut next = ring.clone();
     for Limit { at, states, guard } in &zeros {
         let (event, state) = (&ring.events[*at], &ring.places[*at]);
@@ -287,7 +290,7 @@ pub(super) fn through_hold(
         row[(at + more) * width] -= 1.0;
         row[(at + more + 1) * width] += 1.0;
     }
-    (!zeros.is_empty()).then(|| first_step_either_way(&problem, &w, &row, options))?
+    first_step_either_way(&problem, &w, &row, options)
 }
 
 /// Without the impacts or contacts `gone`, whose speed is zero. What is left can be several times a shorter cycle.

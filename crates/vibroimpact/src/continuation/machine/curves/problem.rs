@@ -171,7 +171,7 @@ impl CurveProblem {
                 if let Some(surface) = place.surfaces[stop] {
                     pull += surface.rate * surface.rate * surface.size;
                 }
-                Some(pull / (frame.normal.along(stop, (0.0, self.speed)).1 * ring.frequency(frame.machine)))
+                Some(pull / (frame.normal.length(stop) * self.speed * ring.frequency(frame.machine)))
             }
             Watched::Release => match &self.equations.condition {
                 Condition::Limit { limit, size, .. } => {
