@@ -73,10 +73,9 @@ impl Store {
     pub fn progress(&self) -> Result<Progress, StoreError> {
         let items = self.list("")?;
         let grid = self.study.grid();
-        let status = |tile: u64| self.layout.status.key(&self.layout.status_place(tile));
         let at = |key: &str| items.binary_search_by(|item| item.key.as_str().cmp(key)).ok();
         let waiting = |tile: u64| at(&self.layout.shards.as_ref()?.loose_key(tile));
-        let find = |tile: &u64| at(&status(*tile)).or_else(|| waiting(*tile));
+        let find = |tile: &u64| at(&self.layout.status_key(*tile)).or_else(|| waiting(*tile));
         let (mut done, mut points_done, mut missing, mut times) = (0, 0, Vec::new(), Vec::new());
         for tile in 0..grid.tiles() {
             if let Some(at) = find(&tile) {

@@ -25,7 +25,7 @@ impl Chunked {
     }
 
     /// The key of a chunk.
-    pub(crate) fn key(&self, place: &[u64]) -> String {
+    pub(crate) fn key(&self, place: &[usize]) -> String {
         let mut key = format!("{}/c", self.name);
         for index in place {
             // a text can always be written to

@@ -30,9 +30,7 @@ impl Holds {
     /// The type of some values.
     pub(crate) const fn of(values: &Cells) -> Self {
         match values {
-            Cells::Numbers(Column::I8(_)) => Self::Numbers(NumberType::I8),
-            Cells::Numbers(Column::I32(_)) => Self::Numbers(NumberType::I32),
-            Cells::Numbers(Column::F64(_)) => Self::Numbers(NumberType::F64),
+            Cells::Numbers(column) => Self::Numbers(column.kind()),
             Cells::Text(_) => Self::Text,
         }
     }
@@ -40,13 +38,8 @@ impl Holds {
 
 /// The bytes of a chunk from its values.
 pub(crate) fn encode(values: &Cells) -> Result<Vec<u8>, Defect> {
-    let one_nan = |x: &f64| if x.is_nan() { f64::NAN } else { *x };
     let plain = match values {
-        Cells::Numbers(Column::I8(v)) => v.iter().map(|x| x.cast_unsigned()).collect(),
-        Cells::Numbers(Column::I32(v)) => v.iter().map(|x| x.to_le_bytes()).collect::<Vec<_>>().into_flattened(),
-        Cells::Numbers(Column::F64(v)) => {
-            v.iter().map(|x| one_nan(x).to_le_bytes()).collect::<Vec<_>>().into_flattened()
-        }
+        Cells::Numbers(column) => column.to_bytes(),
         Cells::Text(words) => from_texts(words)?,
     };
     let mut chunk = zstd::bulk::compress(&plain, LEVEL).map_err(|error| error.to_string())?;
@@ -59,23 +52,15 @@ pub(crate) fn encode(values: &Cells) -> Result<Vec<u8>, Defect> {
 /// The values of a chunk from its bytes, or a description of the damage. `count` is the number of values.
 pub(crate) fn decode(kind: Holds, count: usize, chunk: &[u8]) -> Result<Cells, Defect> {
     let frame = checksum::content(chunk).ok_or("its checksum is wrong")?;
-    let width = match kind {
-        Holds::Numbers(NumberType::I8) => 1,
-        Holds::Numbers(NumberType::I32) => 4,
-        Holds::Numbers(NumberType::F64) => 8,
-        Holds::Text => return into_texts(&decompressed(frame, MOST_TEXT)?, count).map(Cells::Text),
+    let Holds::Numbers(kind) = kind else {
+        return into_texts(&decompressed(frame, MOST_TEXT)?, count).map(Cells::Text);
     };
-    let size = count.checked_mul(width).ok_or("it has too many values")?;
+    let size = count.checked_mul(kind.size()).ok_or("it has too many values")?;
     let plain = decompressed(frame, size)?;
     if plain.len() != size {
         return Err(format!("it has {} bytes of values instead of {size}", plain.len()));
     }
-    let (of_four, of_eight) = (plain.as_chunks().0, plain.as_chunks().0);
-    Ok(Cells::Numbers(match kind {
-        Holds::Numbers(NumberType::I32) => Column::I32(of_four.iter().map(|x| i32::from_le_bytes(*x)).collect()),
-        Holds::Numbers(NumberType::F64) => Column::F64(of_eight.iter().map(|x| f64::from_le_bytes(*x)).collect()),
-        _ => Column::I8(plain.into_iter().map(u8::cast_signed).collect()),
-    }))
+    Ok(Cells::Numbers(Column::from_bytes(kind, &plain)))
 }
 
 /// The content of a frame of Zstandard, which has at most `most` bytes. The memory for them is bounded by this number and

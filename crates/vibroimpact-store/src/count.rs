@@ -49,8 +49,7 @@ impl Store {
         };
         for shard in 0..shards.count() {
             let tiles = shards.tiles(shard);
-            let Some(first) = tiles.iter().flatten().next() else { continue };
-            let bytes = self.get(&self.layout.key(*first, field))?;
+            let bytes = self.get(&self.layout.key(shards.first(shard), field))?;
             let chunks: Option<Chunks> = bytes.and_then(|bytes| shards::chunks(&bytes, shards.index_length()));
             let chunks = chunks.unwrap_or_else(|| vec![None; tiles.len()]);
             for (tile, chunk) in tiles.into_iter().zip(chunks) {

@@ -156,7 +156,8 @@ fn chunk_of(description: &Value) -> Option<Vec<usize>> {
     lengths.iter().map(|n| n.as_u64().and_then(|n| usize::try_from(n).ok())).collect()
 }
 
-fn of_store(what: String) -> Damage {
+/// A fault of the whole store.
+pub(crate) fn of_store(what: String) -> Damage {
     Damage { tile: None, what }
 }
 

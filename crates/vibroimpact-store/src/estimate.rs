@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 use vibroimpact_study::Plan;
 use vibroimpact_study::study::{Cells, Study};
-use vibroimpact_study::{Block, Column, Control, Field, Grid, NumberType};
+use vibroimpact_study::{Block, Column, Control, Field, Grid};
 
 /// How a study is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,7 +99,7 @@ pub fn estimate(plan: &Plan, sampling: Sampling, control: &Control<'_>) -> Resul
     let of_all = |(points, seconds): (u64, f64)| seconds / points as f64 * grid.points() as f64;
     let seconds = of_all((sampled, spent));
     let interval = if sampled >= grid.points() { [seconds, seconds] } else { interval(&probes, of_all) };
-    let width = |field: &Field| field.width() as u64 * size(field.kind);
+    let width = |field: &Field| (field.width() * field.kind.size()) as u64;
     let row: u64 = layout.fields.iter().map(width).sum();
     let bytes_raw = row.saturating_mul(grid.points());
     let share = compressed(&layout, &probes).map_err(unreachable)?;
@@ -128,14 +128,6 @@ pub fn estimate(plan: &Plan, sampling: Sampling, control: &Control<'_>) -> Resul
 
 /// Bytes of an empty chunk: the frame of Zstandard and a checksum.
 const CHUNK: u64 = 20;
-
-const fn size(kind: NumberType) -> u64 {
-    match kind {
-        NumberType::I8 => 1,
-        NumberType::I32 => 4,
-        NumberType::F64 => 8,
-    }
-}
 
 /// Computes the blocks of the sample.
 fn sample(study: &Study, sampling: Sampling, control: &Control<'_>) -> Result<Vec<Probe>, StoreError> {
@@ -242,7 +234,7 @@ fn compressed(layout: &Layout, probes: &[Probe]) -> Result<f64, String> {
             filled += fits;
         }
         if filled > 0 {
-            raw += filled as u64 * size(field.kind);
+            raw += (filled * field.kind.size()) as u64;
             small += (array.encode(&Cells::Numbers(chunk))?.len() as u64).saturating_sub(CHUNK);
         }
     }

@@ -69,7 +69,7 @@ impl Store {
     pub(crate) fn complete_held(&self, held: &Held, shard: u64) -> Result<(), StoreError> {
         let Some(shards) = &self.layout.shards else { return Ok(()) };
         let (mut tiles, order) = (held.take(shard), shards.tiles(shard));
-        let Some(first) = order.iter().flatten().next().copied() else { return Ok(()) };
+        let first = shards.first(shard);
         if tiles.len() < order.iter().flatten().count() {
             self.write_waiting(shards, &tiles)?;
             return self.complete_shard(shard).map(drop);

@@ -121,35 +121,23 @@ impl Layout {
         Self { grid, shards, fields, arrays, recent, status, coordinates }
     }
 
-    /// The indices of the chunk of a tile in the array of a field.
-    pub(crate) fn place(&self, tile: u64, field: usize) -> Vec<u64> {
-        let place = self.grid.place(tile).into_iter().map(|i| i as u64);
-        place.chain(self.fields[field].extra.iter().map(|_| 0)).collect()
-    }
-
-    /// The indices of the chunk of a tile in the array of the status.
-    pub(crate) fn status_place(&self, tile: u64) -> Vec<u64> {
+    /// The indices of a tile, or of its shard, in all arrays without further dimensions.
+    fn place(&self, tile: u64) -> Vec<usize> {
         match &self.shards {
-            None => self.grid.place(tile).into_iter().map(|i| i as u64).collect(),
-            Some(shards) => Self::shard_place(shards, shards.of_tile(tile)),
+            None => self.grid.place(tile),
+            Some(shards) => shards.place(shards.of_tile(tile)),
         }
     }
 
-    /// The indices of a shard in all arrays without further dimensions.
-    pub(crate) fn shard_place(shards: &Shards, shard: u64) -> Vec<u64> {
-        shards.place(shard).into_iter().map(|i| i as u64).collect()
+    /// The key of the status of a tile, or of its shard.
+    pub(crate) fn status_key(&self, tile: u64) -> String {
+        self.status.key(&self.place(tile))
     }
 
     /// The key of the file that holds the chunk of a tile in the array of a field: its own, or that of its shard.
     pub(crate) fn key(&self, tile: u64, field: usize) -> String {
         let extra = self.fields[field].extra.iter().map(|_| 0);
-        match &self.shards {
-            None => self.arrays[field].key(&self.place(tile, field)),
-            Some(shards) => {
-                let place = Self::shard_place(shards, shards.of_tile(tile));
-                self.arrays[field].key(&place.into_iter().chain(extra).collect::<Vec<_>>())
-            }
-        }
+        self.arrays[field].key(&self.place(tile).into_iter().chain(extra).collect::<Vec<_>>())
     }
 
     /// The status in the chunk of a tile: that all tiles there are complete.

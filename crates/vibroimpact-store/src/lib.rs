@@ -185,7 +185,7 @@ impl Store {
 
     /// This store, if the existing root belongs to the same plan.
     fn joined(self, root: &Value) -> Result<Self, StoreError> {
-        let found = self.found(root)?;
+        let found = Found::of(root, &self.place())?;
         if found.hash != self.plan.hash() {
             return Err(StoreError::OtherPlan { place: self.place(), theirs: found.hash, ours: self.plan.hash() });
         }
@@ -299,9 +299,8 @@ impl Store {
 
     /// Whether the status of a tile, or of its shard, exists and is undamaged.
     fn stated(&self, tile: u64) -> Result<bool, StoreError> {
-        let (array, place) = (&self.layout.status, self.layout.status_place(tile));
-        let Some(bytes) = self.get(&array.key(&place))? else { return Ok(false) };
-        Ok(array.decode(&bytes).as_ref() == Ok(&self.layout.all_done(tile)))
+        let Some(bytes) = self.get(&self.layout.status_key(tile))? else { return Ok(false) };
+        Ok(self.layout.status.decode(&bytes).as_ref() == Ok(&self.layout.all_done(tile)))
     }
 
     /// Whether a tile is complete, that is, it waits for its shard, or its status exists and is undamaged. In this order,
@@ -337,9 +336,9 @@ impl Store {
 
     /// The status that says that a tile, or all tiles of its shard, are complete.
     fn status_object(&self, tile: u64) -> Result<(String, Vec<u8>), StoreError> {
-        let (array, place) = (&self.layout.status, self.layout.status_place(tile));
+        let array = &self.layout.status;
         let bytes = array.encode(&self.layout.all_done(tile)).map_err(|why| self.defect(&array.name, why))?;
-        Ok((array.key(&place), bytes))
+        Ok((self.layout.status_key(tile), bytes))
     }
 
     /// The chunks of a tile in the arrays of all fields.

@@ -2,7 +2,6 @@
 //! whole grid.
 
 use crate::shards::Shards;
-use std::collections::BTreeMap;
 use vibroimpact_study::Grid;
 
 /// The given places in the order from coarse to fine: first the tile at the origin, then those that halve the spacing
@@ -41,8 +40,7 @@ fn level(along: &[usize], place: &[usize]) -> usize {
 /// few tiles wait for the others of their shard.
 pub(crate) fn tiles(grid: &Grid, shards: Option<&Shards>, tiles: &[u64], turn: usize) -> Vec<u64> {
     if let Some(shards) = shards {
-        let mut of_shard: BTreeMap<u64, Vec<u64>> = BTreeMap::new();
-        tiles.iter().for_each(|tile| of_shard.entry(shards.of_tile(*tile)).or_default().push(*tile));
+        let mut of_shard = shards.grouped(tiles);
         let order = coarse_to_fine(&shards.along(), of_shard.keys().map(|shard| (*shard, shards.place(*shard))), turn);
         let in_turn = |shard: &u64| {
             let mut tiles = of_shard.remove(shard).unwrap_or_default();

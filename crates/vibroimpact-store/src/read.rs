@@ -70,7 +70,7 @@ impl Store {
         {
             return Ok(true);
         }
-        Ok(self.get(&self.layout.status.key(&self.layout.status_place(tile)))?.is_some())
+        Ok(self.get(&self.layout.status_key(tile))?.is_some())
     }
 
     /// The column of a field in a tile; `None` if the tile is not complete.

@@ -18,10 +18,6 @@ impl Store {
         read_root(self.shelf.as_ref())
     }
 
-    pub(crate) fn found(&self, root: &Value) -> Result<Found, StoreError> {
-        Found::of(root, &self.place())
-    }
-
     /// The arrays that a store has from the beginning.
     pub(crate) fn described(&self) -> impl Iterator<Item = &Chunked> {
         let Layout { arrays, status, coordinates, .. } = &self.layout;
@@ -43,15 +39,13 @@ impl Store {
     pub(crate) fn descriptions(&self, conclusion: Option<&Conclusion>) -> Result<Vec<Object>, StoreError> {
         let mut written = Described::default();
         let Layout { arrays, status, coordinates, .. } = &self.layout;
-        for (number, array) in arrays.iter().enumerate() {
-            let labels = conclusion.and_then(|found| found.labelled.iter().find(|(field, _)| *field == number));
-            let added = written.add(labels.map_or(array, |(_, labelled)| labelled), None);
-            added.map_err(|why| self.defect(&array.name, why))?;
-        }
-        let tables = conclusion.map_or(&[][..], |found| &found.tables);
-        for (array, values) in core::iter::once((status, None))
-            .chain(coordinates.iter().chain(tables).map(|(array, values)| (array, Some(values))))
-        {
+        let (labelled, tables) =
+            conclusion.map_or((&[][..], &[][..]), |found| (found.labelled.as_slice(), found.tables.as_slice()));
+        let with_labels =
+            |(number, array)| labelled.iter().find(|(of, _)| *of == number).map_or(array, |(_, with)| with);
+        let fields = arrays.iter().enumerate().map(with_labels).chain([status]).map(|array| (array, None));
+        let with_values = coordinates.iter().chain(tables).map(|(array, values)| (array, Some(values)));
+        for (array, values) in fields.chain(with_values) {
             written.add(array, values).map_err(|why| self.defect(&array.name, why))?;
         }
         let bytes = self.root_bytes(&written.consolidated, conclusion.is_some())?;

@@ -2,6 +2,7 @@
 
 use crate::check::Damage;
 use crate::checksum;
+use crate::described::of_store;
 use crate::held::Held;
 use crate::run::State;
 use crate::shards::{self, Chunks, LOOSE, Shards, loose_prefix};
@@ -44,8 +45,7 @@ impl Store {
     /// The chunks of a field in a shard, and whether its bytes are exactly those of its chunks.
     fn shard_chunks(&self, shards: &Shards, shard: u64, field: usize) -> Result<(Chunks, bool), StoreError> {
         let none = (vec![None; shards.chunks()], false);
-        let Some(tile) = shards.tiles(shard).into_iter().flatten().next() else { return Ok(none) };
-        let Some(bytes) = self.get(&self.layout.key(tile, field))? else { return Ok(none) };
+        let Some(bytes) = self.get(&self.layout.key(shards.first(shard), field))? else { return Ok(none) };
         let Some(chunks) = shards::chunks(&bytes, shards.index_length()) else { return Ok(none) };
         let exact = shards::assemble(&chunks) == bytes;
         Ok((chunks, exact))
@@ -58,10 +58,8 @@ impl Store {
         tiles: &[u64],
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Vec<State>>, StoreError> {
-        let mut of_shard: BTreeMap<u64, Vec<u64>> = BTreeMap::new();
-        tiles.iter().for_each(|tile| of_shard.entry(shards.of_tile(*tile)).or_default().push(*tile));
-        let of_shard: Vec<(u64, Vec<u64>)> = of_shard.into_iter().collect();
-        let states = |(shard, tiles): &(u64, Vec<u64>)| -> Result<Option<Vec<(u64, State)>>, StoreError> {
+        let of_shard = shards.grouped(tiles);
+        let states = |(shard, tiles): (&u64, &Vec<u64>)| -> Result<Option<Vec<(u64, State)>>, StoreError> {
             if stop() {
                 return Ok(None);
             }
@@ -115,7 +113,7 @@ impl Store {
         let stated: BTreeSet<&str> = stated.iter().map(|item| item.key.as_str()).collect();
         let waiting: BTreeSet<&str> = waiting.iter().map(|item| item.key.as_str()).collect();
         let done = |tile: &u64| {
-            stated.contains(self.layout.status.key(&self.layout.status_place(*tile)).as_str())
+            stated.contains(self.layout.status_key(*tile).as_str())
                 || waiting.contains(shards.loose_key(*tile).as_str())
         };
         (0..self.study.grid().tiles()).filter(done).count() as u64
@@ -145,8 +143,7 @@ impl Store {
     /// Nothing is written if it is complete already.
     pub(crate) fn complete_shard(&self, shard: u64) -> Result<bool, StoreError> {
         let Some(shards) = &self.layout.shards else { return Ok(true) };
-        let tiles = shards.tiles(shard);
-        let Some(first) = tiles.iter().flatten().next().copied() else { return Ok(true) };
+        let (tiles, first) = (shards.tiles(shard), shards.first(shard));
         let waiting = self.list(&loose_prefix(shard))?;
         let there = self.get(&self.layout.key(first, 0))?.is_some();
         if waiting.len() < tiles.iter().flatten().count() && !there {
@@ -208,7 +205,7 @@ impl Store {
         let waiting = self.list(LOOSE)?;
         let folders: BTreeSet<&str> = waiting.iter().filter_map(|item| Some(item.key.rsplit_once('/')?.0)).collect();
         for shard in 0..shards.count() {
-            let Some(tile) = shards.tiles(shard).into_iter().flatten().next() else { continue };
+            let tile = shards.first(shard);
             let waits = folders.contains(loose_prefix(shard).trim_end_matches('/'));
             if (waits || !self.stated(tile)?) && !self.complete_shard(shard)? {
                 return Err(StoreError::DamagedTile { place: self.place(), tile, key: self.layout.key(tile, 0) });
@@ -253,12 +250,10 @@ impl Store {
         let Some(shards) = &self.layout.shards else { return Ok(Vec::new()) };
         let state = |tile: u64| usize::try_from(tile).ok().and_then(|tile| states.get(tile)).copied();
         let faults = |shard: u64| -> Result<Vec<Damage>, StoreError> {
-            let tiles: Vec<u64> = shards.tiles(shard).into_iter().flatten().collect();
-            let Some(first) = tiles.first().copied() else { return Ok(Vec::new()) };
-            let of_store = |what: String| Damage { tile: None, what };
+            let (mut tiles, first) = (shards.tiles(shard).into_iter().flatten(), shards.first(shard));
             let mut damage = Vec::new();
             let there = self.get(&self.layout.key(first, 0))?.is_some();
-            if !there || tiles.iter().any(|tile| state(*tile) != Some(State::Whole)) {
+            if !there || tiles.any(|tile| state(tile) != Some(State::Whole)) {
                 return Ok(damage);
             }
             for field in 0..self.layout.fields.len() {
@@ -267,7 +262,7 @@ impl Store {
                 }
             }
             if !self.stated(first)? {
-                damage.push(of_store(format!("`{}` is missing or damaged", self.status_object(first)?.0)));
+                damage.push(of_store(format!("`{}` is missing or damaged", self.layout.status_key(first))));
             }
             Ok(damage)
         };

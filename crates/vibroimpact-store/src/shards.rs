@@ -8,6 +8,7 @@
 //! removed. The bytes of a shard depend only on its chunks, so any number of processes may do this at the same time.
 
 use crate::checksum;
+use std::collections::BTreeMap;
 use vibroimpact_study::{Grid, number, place};
 
 /// The folder of the objects of tiles whose shards are not complete.
@@ -93,6 +94,18 @@ impl Shards {
             at.iter().zip(&self.along).all(|(at, count)| at < count).then(|| number(&self.along, at))
         };
         (0..self.chunks()).map(tile).collect()
+    }
+
+    /// The given tiles by shard.
+    pub(crate) fn grouped(&self, tiles: &[u64]) -> BTreeMap<u64, Vec<u64>> {
+        let mut of_shard: BTreeMap<u64, Vec<u64>> = BTreeMap::new();
+        tiles.iter().for_each(|tile| of_shard.entry(self.of_tile(*tile)).or_default().push(*tile));
+        of_shard
+    }
+
+    /// The first tile of a shard.
+    pub(crate) fn first(&self, shard: u64) -> u64 {
+        number(&self.along, self.place(shard).iter().zip(&self.side).map(|(corner, side)| corner * side))
     }
 
     /// The number of the chunk of a tile in its shard.

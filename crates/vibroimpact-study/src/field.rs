@@ -15,6 +15,18 @@ pub enum NumberType {
     F64,
 }
 
+impl NumberType {
+    /// Number of bytes of a number.
+    #[must_use]
+    pub const fn size(self) -> usize {
+        match self {
+            Self::I8 => 1,
+            Self::I32 => 4,
+            Self::F64 => 8,
+        }
+    }
+}
+
 /// A dimension of a field in addition to those of the grid.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Extra {
@@ -128,6 +140,38 @@ impl Column {
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// The type of its numbers.
+    #[must_use]
+    pub const fn kind(&self) -> NumberType {
+        match self {
+            Self::I8(_) => NumberType::I8,
+            Self::I32(_) => NumberType::I32,
+            Self::F64(_) => NumberType::F64,
+        }
+    }
+
+    /// The numbers as bytes, the least significant first. Not-a-number always has the same bytes.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let one_nan = |x: &f64| if x.is_nan() { f64::NAN } else { *x };
+        match self {
+            Self::I8(v) => v.iter().map(|x| x.cast_unsigned()).collect(),
+            Self::I32(v) => v.iter().map(|x| x.to_le_bytes()).collect::<Vec<_>>().into_flattened(),
+            Self::F64(v) => v.iter().map(|x| one_nan(x).to_le_bytes()).collect::<Vec<_>>().into_flattened(),
+        }
+    }
+
+    /// The numbers from their bytes; bytes after the last whole number are left out.
+    #[must_use]
+    pub fn from_bytes(kind: NumberType, bytes: &[u8]) -> Self {
+        let (of_four, of_eight) = (bytes.as_chunks().0, bytes.as_chunks().0);
+        match kind {
+            NumberType::I8 => Self::I8(bytes.iter().map(|x| x.cast_signed()).collect()),
+            NumberType::I32 => Self::I32(of_four.iter().map(|x| i32::from_le_bytes(*x)).collect()),
+            NumberType::F64 => Self::F64(of_eight.iter().map(|x| f64::from_le_bytes(*x)).collect()),
+        }
     }
 
     /// Copies `len` values of `from`, beginning at index `at`, to index `to` of this column. Does nothing if the

@@ -38,8 +38,8 @@ struct Place<'a> {
 /// A label and its colour, which is the same in every figure.
 #[derive(Clone, Serialize)]
 pub(crate) struct Named {
-    name: String,
-    colour: String,
+    pub(crate) name: String,
+    pub(crate) colour: String,
 }
 
 impl Named {
@@ -105,19 +105,11 @@ pub(crate) fn pack_fields<'a>(
 fn place<'a>(field: &'a Field, column: &Column, body: &mut Vec<u8>) -> Place<'a> {
     body.resize(body.len().next_multiple_of(8), 0);
     let offset = body.len();
-    let kind = match column {
-        Column::I8(numbers) => {
-            body.extend(numbers.iter().flat_map(|n| n.to_le_bytes()));
-            "i8"
-        }
-        Column::I32(numbers) => {
-            body.extend(numbers.iter().flat_map(|n| n.to_le_bytes()));
-            "i32"
-        }
-        Column::F64(numbers) => {
-            body.extend(numbers.iter().flat_map(|n| n.to_le_bytes()));
-            "f64"
-        }
+    body.extend(column.to_bytes());
+    let kind = match field.kind {
+        NumberType::I8 => "i8",
+        NumberType::I32 => "i32",
+        NumberType::F64 => "f64",
     };
     Place {
         name: field.name.as_ref().into(),
@@ -140,20 +132,10 @@ pub(crate) fn unpack(bytes: &[u8], fields: &[Field], points: usize) -> Option<Ve
     let Places { fields: places } = serde_json::from_slice(header).ok()?;
     let column = |field: &Field| {
         let place = places.iter().find(|place| place.name == field.name)?;
-        let (from, count) = (body.get(place.offset..)?, points * field.width());
-        Some(match field.kind {
-            NumberType::I8 => Column::I8(numbers(from, count, i8::from_le_bytes)?),
-            NumberType::I32 => Column::I32(numbers(from, count, i32::from_le_bytes)?),
-            NumberType::F64 => Column::F64(numbers(from, count, f64::from_le_bytes)?),
-        })
+        let size = points * field.width() * field.kind.size();
+        Some(Column::from_bytes(field.kind, body.get(place.offset..)?.get(..size)?))
     };
     Some(fields.iter().map(column).collect())
-}
-
-/// The first `count` numbers of N bytes each.
-fn numbers<T, const N: usize>(bytes: &[u8], count: usize, read: impl Fn([u8; N]) -> T) -> Option<Vec<T>> {
-    let each = bytes.get(..N * count)?.chunks_exact(N);
-    Some(each.filter_map(|chunk| Some(read(*chunk.first_chunk()?))).collect())
 }
 
 fn labels(codes: &[i32]) -> BTreeMap<i32, Named> {
