@@ -1,6 +1,7 @@
 //! The progress of long work as server-sent events: `progress`, then `done` or `error`.
 
 use crate::refusal::Refusal;
+use axum::http::{HeaderMap, header};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use core::convert::Infallible;
@@ -13,14 +14,31 @@ use tokio::sync::mpsc;
 /// Time between two events.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// Number of points done, as reported by the work.
-pub(crate) type Done = Arc<AtomicU64>;
+/// Called with the number of points done.
+pub(crate) type Progress = Box<dyn Fn(u64) + Send + Sync>;
 
-/// Answers with the events of `work`, which reports how many of `total` points are done. If the connection ends, the
-/// work stops.
-pub(crate) fn stream(
+/// Answers with the result of `work`, which reports how many of `total` points are done: by events with the `value` of the result, if the
+/// page requests them, or else as it is `shown`.
+pub(crate) async fn answered<T, F: Future<Output = Result<T, Refusal>> + Send + 'static>(
+    headers: &HeaderMap,
     total: u64,
-    done: Done,
+    work: impl FnOnce(Progress) -> F,
+    value: impl FnOnce(T) -> Result<Value, Refusal> + Send + 'static,
+    shown: impl FnOnce(T) -> Response,
+) -> Result<Response, Refusal> {
+    let done = Arc::new(AtomicU64::new(0));
+    let reported = done.clone();
+    let work = work(Box::new(move |now| reported.store(now, Ordering::Relaxed)));
+    if headers.get(header::ACCEPT).is_some_and(|kind| kind.as_bytes().starts_with(b"text/event-stream")) {
+        return Ok(stream(total, done, async { value(work.await?) }));
+    }
+    Ok(shown(work.await?))
+}
+
+/// The events of `work`. If the connection ends, the work stops.
+fn stream(
+    total: u64,
+    done: Arc<AtomicU64>,
     work: impl Future<Output = Result<Value, Refusal>> + Send + 'static,
 ) -> Response {
     let (events, received) = mpsc::channel::<Event>(8);

@@ -46,14 +46,15 @@ impl Server {
         self.raw(format!("GET {path} HTTP/1.1\r\nhost: {}\r\n{headers}connection: close\r\n\r\n", self.host).as_bytes())
     }
 
-    fn post(&self, path: &str, body: &str) -> (u16, String) {
+    /// The text of a request with a plan.
+    fn posting(&self, path: &str, headers: &str, body: &str) -> String {
         let (host, length) = (&self.host, body.len());
-        self.raw(
-            format!(
-                "POST {path} HTTP/1.1\r\nhost: {host}\r\ncontent-type: application/json\r\ncontent-length: {length}\r\nconnection: close\r\n\r\n{body}"
-            )
-            .as_bytes(),
-        )
+        let head = format!("POST {path} HTTP/1.1\r\nhost: {host}\r\ncontent-type: application/json\r\n");
+        format!("{head}content-length: {length}\r\n{headers}\r\n{body}")
+    }
+
+    fn post(&self, path: &str, body: &str) -> (u16, String) {
+        self.raw(self.posting(path, "connection: close\r\n", body).as_bytes())
     }
 
     /// Checks that the page and an answer are still served.
@@ -212,12 +213,7 @@ fn work_of_a_page_that_is_gone_ends() {
     let gone: Vec<TcpStream> = (0..6)
         .map(|_| {
             let mut stream = server.connect();
-            let (host, length) = (&server.host, long.len());
-            write!(
-                stream,
-                "POST /api/tile HTTP/1.1\r\nhost: {host}\r\ncontent-type: application/json\r\ncontent-length: {length}\r\n\r\n{long}"
-            )
-            .unwrap();
+            stream.write_all(server.posting("/api/tile", "", &long).as_bytes()).unwrap();
             stream
         })
         .collect();
@@ -231,11 +227,8 @@ fn work_of_a_page_that_is_gone_ends() {
 #[test]
 fn long_work_is_told() {
     let server = Server::begin();
-    let body = map("0.5:2:40", "0:2:40", "2");
-    let head =
-        format!("accept: text/event-stream\r\ncontent-type: application/json\r\ncontent-length: {}\r\n", body.len());
-    let request =
-        format!("POST /api/answer HTTP/1.1\r\nhost: {}\r\n{head}connection: close\r\n\r\n{body}", server.host);
+    let headers = "accept: text/event-stream\r\nconnection: close\r\n";
+    let request = server.posting("/api/answer", headers, &map("0.5:2:40", "0:2:40", "2"));
     let (status, text) = server.raw(request.as_bytes());
     assert_eq!(status, 200, "{text}");
     assert!(text.contains("text/event-stream") && text.contains("event: progress"), "{text}");

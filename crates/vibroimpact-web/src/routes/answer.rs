@@ -1,8 +1,8 @@
 //! The output of the command for a plan (JSON, table and figure), and the command line itself.
 
-use super::asked::{PlanRequest, Query, bytes, listed, wants_events};
+use super::asked::{PlanRequest, Query, bytes, listed};
 use crate::Explorer;
-use crate::events::{Done, stream};
+use crate::events::answered;
 use crate::refusal::Refusal;
 use crate::workshop::Bench;
 use axum::Json;
@@ -10,7 +10,6 @@ use axum::body::Bytes;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::Response;
-use core::sync::atomic::Ordering;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use vibroimpact_plot::Figure;
@@ -27,21 +26,14 @@ pub(super) async fn answer(
     headers: HeaderMap,
     asked: PlanRequest,
 ) -> Result<Response, Refusal> {
-    let name = format!("answer {}", asked.plan.hash());
-    let done = Done::default();
-    let told = done.clone();
-    let (plan, points) = (asked.plan, asked.points);
-    let work = async move {
-        let told = move |now| told.store(now, Ordering::Relaxed);
+    let PlanRequest { plan, points } = asked;
+    let work = |progress| async move {
+        let name = format!("answer {}", plan.hash());
         let work = move |control: &Control<'_>| Ok(Bytes::from(ask(&plan, Units::default(), control)?.json()));
-        explorer.once(name, (Bench::Answers, 0), told, work).await
+        explorer.once(name, (Bench::Answers, 0), progress, work).await
     };
-    if wants_events(&headers) {
-        let value =
-            async { serde_json::from_slice(&work.await?).map_err(|_| Refusal::fault("an answer that is no JSON")) };
-        return Ok(stream(points, done, value));
-    }
-    Ok(bytes("application/json", work.await?))
+    let value = |body: Bytes| serde_json::from_slice(&body).map_err(|_| Refusal::fault("an answer that is no JSON"));
+    answered(&headers, points, work, value, |body| bytes("application/json", body)).await
 }
 
 /// The table that `--csv` writes, or that of one view of a settled motion.

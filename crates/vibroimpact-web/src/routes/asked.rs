@@ -5,7 +5,7 @@ use crate::refusal::Refusal;
 use axum::body::Bytes;
 use axum::extract::{FromRequest, FromRequestParts, Request};
 use axum::http::request::Parts;
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use core::time::Duration;
 use serde::de::DeserializeOwned;
@@ -55,11 +55,6 @@ impl<S: Send + Sync> FromRequest<S> for PlanRequest {
         bounds::check(&plan)?;
         Ok(Self { points: plan.work().map_or(1, |(points, _)| points), plan })
     }
-}
-
-/// Whether the page requests progress events.
-pub(super) fn wants_events(headers: &HeaderMap) -> bool {
-    headers.get(header::ACCEPT).is_some_and(|kind| kind.as_bytes().starts_with(b"text/event-stream"))
 }
 
 /// Labels separated by commas.

@@ -3,7 +3,8 @@
 use super::asked::Query;
 use crate::refusal::Refusal;
 use axum::Json;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use vibroimpact_report::Units;
 use vibroimpact_study::{Body, Quantity, UnitsPlan, natural_hertz};
@@ -17,19 +18,9 @@ pub(super) struct BodyNumbers {
     force_n: f64,
 }
 
-#[derive(Serialize)]
-pub(super) struct BodyUnits {
-    /// The units as a part of a plan: results of a plan with them are in SI units.
-    units: UnitsPlan,
-    /// One unit of velocity in m/s.
-    velocity_m_per_s: f64,
-    /// The natural frequency in Hz, one unit of the frequency ratio.
-    natural_hz: f64,
-    /// One unit of each quantity of a motion in its SI unit.
-    quantities: BTreeMap<&'static str, f64>,
-}
-
-pub(super) async fn units(Query(numbers): Query<BodyNumbers>) -> Result<Json<BodyUnits>, Refusal> {
+/// The units as a part of a plan, with which its results are in SI units, one unit of each quantity of a motion in its SI unit, one unit
+/// of velocity in m/s, and the natural frequency in Hz, which is one unit of the frequency ratio.
+pub(super) async fn units(Query(numbers): Query<BodyNumbers>) -> Result<Json<Value>, Refusal> {
     let BodyNumbers { mass_kg, stiffness_n_per_m, force_n } = numbers;
     // the units do not depend on frequency, damping and stop
     let body = Body {
@@ -44,10 +35,11 @@ pub(super) async fn units(Query(numbers): Query<BodyNumbers>) -> Result<Json<Bod
     let scales = body.reduction().map_err(|error| Refusal::bad(error.to_string()))?.scales();
     let plan = UnitsPlan::new(&scales, true, None);
     let units = Units::from(&plan);
-    Ok(Json(BodyUnits {
-        units: plan,
-        quantities: Quantity::ALL.into_iter().map(|of| (of.name(), units.of_quantity(of))).collect(),
-        velocity_m_per_s: scales.velocity(),
-        natural_hz: natural_hertz(&scales),
-    }))
+    let of_quantity = |of: Quantity| (of.name(), units.of_quantity(of));
+    Ok(Json(json!({
+        "units": plan,
+        "velocity_m_per_s": scales.velocity(),
+        "natural_hz": natural_hertz(&scales),
+        "quantities": Quantity::ALL.into_iter().map(of_quantity).collect::<BTreeMap<_, _>>(),
+    })))
 }
