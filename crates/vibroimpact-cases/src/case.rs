@@ -16,6 +16,16 @@ pub struct Symmetry {
 }
 
 impl Symmetry {
+    /// A row of coordinates from its other end, with this sign.
+    pub(crate) fn reversed(n: usize, sign: f64, places: Vec<usize>) -> Self {
+        Self { from: (0..n).rev().collect(), signs: vec![sign; n], places }
+    }
+
+    /// Coordinates with signs of their own.
+    pub(crate) fn mirrored(n: usize, sign: impl Fn(usize) -> f64, places: Vec<usize>) -> Self {
+        Self { from: (0..n).collect(), signs: (0..n).map(sign).collect(), places }
+    }
+
     /// The image of a vector of coordinates, velocities, forces, or a direction.
     #[must_use]
     pub fn image(&self, vector: &[f64]) -> Vec<f64> {

@@ -1,9 +1,6 @@
 //! Free bodies without any force between walls: impacts alone change their velocities.
 
-use crate::bodies::{along, between, bodies};
-use crate::case::{Drawn, Symmetry};
-use crate::draw::Draw;
-use vibroimpact::events::Start;
+use super::*;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(2..=6);
@@ -14,9 +11,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         parts = parts.with_mass(i, 1.0);
     }
     parts = parts.with_stop("left", &along(n, 0, -1.0), room, law);
-    for i in 1..n {
-        parts = parts.with_stop(&format!("c{i}"), &between(n, i - 1, i), gap, law);
-    }
+    parts = touching(parts, n, gap, law);
     parts = parts.with_stop("right", &along(n, n - 1, 1.0), room, law);
     // velocities towards the middle, equal or at least symmetric; with an odd number the one in the middle is at rest
     let speed = draw.number(0.3, 1.0);
@@ -31,9 +26,5 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         .collect();
     parts.impacts = draw.impacts();
     let start = Start { qdot, ..Start::default() };
-    Drawn::new(parts, start).symmetric(Symmetry {
-        from: (0..n).rev().collect(),
-        signs: vec![-1.0; n],
-        places: (0..=n).rev().collect(),
-    })
+    Drawn::new(parts, start).symmetric(Symmetry::reversed(n, -1.0, (0..=n).rev().collect()))
 }

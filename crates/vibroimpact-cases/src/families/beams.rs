@@ -1,12 +1,7 @@
 //! Beams and strings by their modes, with supports at symmetric places and a force that is symmetric too: the modes that
 //! are odd about the middle never move.
 
-use crate::case::{Drawn, Symmetry};
-use crate::draw::Draw;
-use core::f64::consts::PI;
-use vibroimpact::events::Start;
-use vibroimpact::machine::MachineParts;
-use vibroimpact::math::sin_cos;
+use super::*;
 
 #[allow(clippy::cast_precision_loss, reason = "orders of modes are small")]
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
@@ -47,6 +42,5 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         }
     }
     let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
-    let symmetry = Symmetry { from: (0..n).collect(), signs: (0..n).map(sign).collect(), places };
-    Drawn::new(parts, Start::default()).symmetric(symmetry)
+    Drawn::new(parts, Start::default()).symmetric(Symmetry::mirrored(n, sign, places))
 }

@@ -1,9 +1,6 @@
 //! Mirror-symmetric chains of equal bodies along a line: springs and gaps between neighbours, walls at both ends.
 
-use crate::bodies::{along, between, bodies};
-use crate::case::{Drawn, Symmetry};
-use crate::draw::Draw;
-use vibroimpact::events::Start;
+use super::*;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(2..=8);
@@ -35,21 +32,12 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
     for i in 0..n {
         parts = parts.with_mass(i, masses[i.min(n - 1 - i)]);
     }
-    parts = parts.with_link(&along(n, 0, 1.0), stiffness, damping).with_link(&along(n, n - 1, 1.0), stiffness, damping);
-    parts = parts.with_stop("left", &along(n, 0, -1.0), room, wall);
-    for i in 1..n {
-        parts = parts.with_link(&between(n, i - 1, i), stiffness, damping);
-        parts = parts.with_stop(&format!("c{i}"), &between(n, i - 1, i), gap, contact);
-    }
-    parts = parts.with_stop("right", &along(n, n - 1, 1.0), room, wall);
+    parts = chained(parts, stiffness, damping).with_stop("left", &along(n, 0, -1.0), room, wall);
+    parts = touching(parts, n, gap, contact).with_stop("right", &along(n, n - 1, 1.0), room, wall);
     let start = Start {
         q: (0..n).map(|i| odd(&shifts, i)).collect(),
         qdot: (0..n).map(|i| odd(&speeds, i)).collect(),
         ..Start::default()
     };
-    Drawn::new(parts, start).symmetric(Symmetry {
-        from: (0..n).rev().collect(),
-        signs: vec![-1.0; n],
-        places: (0..=n).rev().collect(),
-    })
+    Drawn::new(parts, start).symmetric(Symmetry::reversed(n, -1.0, (0..=n).rev().collect()))
 }

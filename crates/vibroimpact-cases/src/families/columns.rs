@@ -1,9 +1,6 @@
 //! Bodies with equal gaps, one above the other, that fall on a floor.
 
-use crate::bodies::{along, between, bodies};
-use crate::case::Drawn;
-use crate::draw::Draw;
-use vibroimpact::events::Start;
+use super::*;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(2..=6);
@@ -15,9 +12,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         parts = parts.with_mass(i, mass).with_constant(i, -mass * 9.81);
     }
     parts = parts.with_stop("floor", &along(n, 0, -1.0), draw.number(0.1, 1.0), law);
-    for i in 1..n {
-        parts = parts.with_stop(&format!("c{i}"), &between(n, i - 1, i), gap, law);
-    }
+    parts = touching(parts, n, gap, law);
     parts.impacts = draw.impacts();
     Drawn::new(parts, Start::default())
 }

@@ -1,9 +1,6 @@
 //! Balls on equal springs that touch, as in a cradle: the first ones are drawn back and strike the others.
 
-use crate::bodies::{along, between, bodies};
-use crate::case::Drawn;
-use crate::draw::Draw;
-use vibroimpact::events::Start;
+use super::*;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(2..=6);
@@ -17,9 +14,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         // equal frequencies, so that all balls meet again at the lowest point
         parts = parts.with_mass(i, mass).with_link(&along(n, i, 1.0), mass, damping * mass);
     }
-    for i in 1..n {
-        parts = parts.with_stop(&format!("c{i}"), &between(n, i - 1, i), gap, law);
-    }
+    parts = touching(parts, n, gap, law);
     let raised = draw.count(1..=n - 1);
     let height = draw.number(0.2, 1.0);
     let q = (0..n).map(|i| if i < raised { -height } else { 0.0 }).collect();

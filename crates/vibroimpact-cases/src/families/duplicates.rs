@@ -1,11 +1,7 @@
 //! Constraints that depend on each other: the same stop twice, a rigid and a compliant one at one gap, a stop whose
 //! direction is scaled, two joints on one coordinate. The machine without the second one moves in the same way.
 
-use crate::bodies::{along, between, bodies};
-use crate::case::Drawn;
-use crate::draw::Draw;
-use vibroimpact::events::Start;
-use vibroimpact::machine::{MachineParts, StopLaw};
+use super::*;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(1..=3);

@@ -1,9 +1,6 @@
 //! Friction joints beside stops: on the body that strikes, on its neighbour, or between both.
 
-use crate::bodies::{along, between, bodies};
-use crate::case::Drawn;
-use crate::draw::Draw;
-use vibroimpact::events::Start;
+use super::*;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(1..=3);

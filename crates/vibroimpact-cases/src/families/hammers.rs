@@ -1,10 +1,6 @@
 //! Bodies between two stops at equal gaps: one driven body, or a ball in a frame that is driven, from rest in the middle.
 
-use crate::bodies::{along, between, bodies};
-use crate::case::Drawn;
-use crate::draw::Draw;
-use vibroimpact::events::Start;
-use vibroimpact::machine::MachineParts;
+use super::*;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let law = draw.law();

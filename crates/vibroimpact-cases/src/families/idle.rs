@@ -1,9 +1,6 @@
 //! Bodies at rest on stops that carry nothing, beside others that move, with or without a spring between them.
 
-use crate::bodies::{along, between, bodies};
-use crate::case::Drawn;
-use crate::draw::Draw;
-use vibroimpact::events::Start;
+use super::*;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let idle = draw.count(1..=3);

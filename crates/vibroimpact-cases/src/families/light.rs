@@ -1,9 +1,6 @@
 //! A very light body, as a node without mass is modelled, between a heavy one and a stop.
 
-use crate::bodies::{along, between, bodies};
-use crate::case::Drawn;
-use crate::draw::Draw;
-use vibroimpact::events::Start;
+use super::*;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let light = draw.pick(&[1e-3, 1e-4, 1e-6, 1e-9]);

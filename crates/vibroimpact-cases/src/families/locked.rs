@@ -1,10 +1,6 @@
 //! Bodies without any room between two walls, so that none of them can move, beside others that do.
 
-use crate::bodies::{along, between, bodies};
-use crate::case::Drawn;
-use crate::draw::Draw;
-use vibroimpact::events::Start;
-use vibroimpact::machine::StopLaw;
+use super::*;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let held = draw.count(2..=4);
@@ -15,9 +11,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         parts = parts.with_mass(i, 1.0).with_link(&along(n, i, 1.0), draw.number(0.5, 2.0), 0.05);
     }
     parts = parts.with_stop("left", &along(n, 0, -1.0), 0.0, law);
-    for i in 1..held {
-        parts = parts.with_stop(&format!("c{i}"), &between(n, i - 1, i), 0.0, law);
-    }
+    parts = touching(parts, held, 0.0, law);
     parts = parts.with_stop("right", &along(n, held - 1, 1.0), 0.0, law);
     if draw.chance(0.5) {
         parts = parts.with_force(0, 1, 0.0, draw.number(0.2, 1.0));

@@ -19,10 +19,15 @@ mod stacks;
 mod strings;
 mod twins;
 
-use crate::case::{Case, Drawn};
+// for all families
+use crate::bodies::{along, between, bodies, chained, touching};
+use crate::case::{Case, Drawn, Symmetry};
 use crate::draw::Draw;
+use core::f64::consts::PI;
 use core::fmt;
-use vibroimpact::machine::{Machine, MachineParts};
+use vibroimpact::events::Start;
+use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
+use vibroimpact::math::sin_cos;
 
 /// A family of machines.
 #[derive(Clone, Copy)]

@@ -1,9 +1,6 @@
 //! Plates and bars on 2 to 4 supports, dropped on them or driven: heave, pitch and, for plates, roll.
 
-use crate::case::{Drawn, Symmetry};
-use crate::draw::Draw;
-use vibroimpact::events::Start;
-use vibroimpact::machine::MachineParts;
+use super::*;
 
 /// Places of supports, as parts of half the length and half the width, and the place of each in the mirror across the
 /// length.
@@ -55,11 +52,11 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         return drawn;
     }
     let sign = |i: usize| if i == 1 { -1.0 } else { 1.0 };
-    let drawn = drawn.symmetric(Symmetry { from: (0..n).collect(), signs: (0..n).map(sign).collect(), places });
+    let drawn = drawn.symmetric(Symmetry::mirrored(n, sign, places));
     if supports.len() < 4 {
         return drawn;
     }
     // the other mirror of four supports
     let sign = |i: usize| if i == 2 { -1.0 } else { 1.0 };
-    drawn.symmetric(Symmetry { from: (0..n).collect(), signs: (0..n).map(sign).collect(), places: vec![3, 2, 1, 0] })
+    drawn.symmetric(Symmetry::mirrored(n, sign, vec![3, 2, 1, 0]))
 }

@@ -1,10 +1,6 @@
 //! Compliant stops with a preload that touch: loads below the preload leave them at rest, larger ones push them in.
 
-use crate::bodies::{along, between, bodies};
-use crate::case::Drawn;
-use crate::draw::Draw;
-use vibroimpact::events::Start;
-use vibroimpact::machine::{Opening, StopLaw};
+use super::*;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(1..=4);

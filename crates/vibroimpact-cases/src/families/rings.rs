@@ -1,9 +1,6 @@
 //! Equal bodies in a ring, coupled to the next: each above a stop of its own, or each beside the next.
 
-use crate::bodies::{along, between, bodies};
-use crate::case::{Drawn, Symmetry};
-use crate::draw::Draw;
-use vibroimpact::events::Start;
+use super::*;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(3..=8);

@@ -1,11 +1,7 @@
 //! One frequency in all directions: a body on equal springs, with stops at angles to the coordinates, in pairs that are
 //! mirrored.
 
-use crate::case::{Drawn, Symmetry};
-use crate::draw::Draw;
-use vibroimpact::events::Start;
-use vibroimpact::machine::MachineParts;
-use vibroimpact::math::sin_cos;
+use super::*;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(2..=3);
@@ -34,7 +30,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
     }
     let mut qdot = vec![0.0; n];
     qdot[0] = draw.number(-0.5, 0.0);
-    let signs = (0..n).map(|i| if i == 1 { -1.0 } else { 1.0 }).collect();
+    let sign = |i: usize| if i == 1 { -1.0 } else { 1.0 };
     let start = Start { qdot, ..Start::default() };
-    Drawn::new(parts, start).symmetric(Symmetry { from: (0..n).collect(), signs, places })
+    Drawn::new(parts, start).symmetric(Symmetry::mirrored(n, sign, places))
 }

@@ -1,10 +1,6 @@
 //! Bodies one on the other, on a table that is still or shakes; gravity is all that acts between them.
 
-use crate::bodies::{along, between, bodies};
-use crate::case::Drawn;
-use crate::draw::Draw;
-use vibroimpact::events::Start;
-use vibroimpact::machine::{HarmonicMotion, StopLaw};
+use super::*;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(2..=6);
@@ -25,9 +21,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
         parts = parts.with_frequency(1.0);
         parts.stops[0].motion = vec![HarmonicMotion { order: 1, cos: 0.0, sin: gamma }];
     }
-    for i in 1..n {
-        parts = parts.with_stop(&format!("c{i}"), &between(n, i - 1, i), 0.0, law);
-    }
+    parts = touching(parts, n, 0.0, law);
     // on the table, or dropped as a whole
     let height = if draw.chance(0.5) { 0.0 } else { draw.number(0.1, 1.0) };
     let start = Start { q: vec![height; n], ..Start::default() };

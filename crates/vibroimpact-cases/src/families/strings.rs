@@ -1,9 +1,6 @@
 //! Mirror-symmetric chains of bodies that move across the line of the chain, as beads on a string above a floor.
 
-use crate::bodies::{along, between, bodies};
-use crate::case::{Drawn, Symmetry};
-use crate::draw::Draw;
-use vibroimpact::events::Start;
+use super::*;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(2..=8);
@@ -25,10 +22,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
     for i in 0..n {
         parts = parts.with_mass(i, 1.0).with_constant(i, -weight);
     }
-    parts = parts.with_link(&along(n, 0, 1.0), stiffness, damping).with_link(&along(n, n - 1, 1.0), stiffness, damping);
-    for i in 1..n {
-        parts = parts.with_link(&between(n, i - 1, i), stiffness, damping);
-    }
+    parts = chained(parts, stiffness, damping);
     for i in 0..n {
         parts = parts.with_stop(&format!("f{}", i + 1), &along(n, i, -1.0), gap, floor);
     }
@@ -41,5 +35,5 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
     }
     let speeds: Vec<f64> = draw.numbers(n.div_ceil(2), 0.0, 0.5);
     let start = Start { qdot: (0..n).map(|i| even(&speeds, i)).collect(), ..Start::default() };
-    Drawn::new(parts, start).symmetric(Symmetry { from: (0..n).rev().collect(), signs: vec![1.0; n], places })
+    Drawn::new(parts, start).symmetric(Symmetry::reversed(n, 1.0, places))
 }

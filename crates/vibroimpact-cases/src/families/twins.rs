@@ -1,9 +1,6 @@
 //! Equal oscillators that touch, under equal forces: they press on each other with a force that is always zero.
 
-use crate::bodies::{along, between, bodies};
-use crate::case::Drawn;
-use crate::draw::Draw;
-use vibroimpact::events::Start;
+use super::*;
 
 pub(super) fn draw(draw: &mut Draw) -> Drawn {
     let n = draw.count(2..=8);
@@ -15,9 +12,7 @@ pub(super) fn draw(draw: &mut Draw) -> Drawn {
             parts.with_mass(i, mass).with_link(&along(n, i, 1.0), stiffness, damping).with_force(i, order, cos, sin);
     }
     let contact = draw.law();
-    for i in 1..n {
-        parts = parts.with_stop(&format!("c{i}"), &between(n, i - 1, i), 0.0, contact);
-    }
+    parts = touching(parts, n, 0.0, contact);
     // a wall for one of them, or none
     let wall = draw.chance(0.6).then(|| draw.count(0..=n - 1));
     if let Some(body) = wall {
