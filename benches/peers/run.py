@@ -19,12 +19,14 @@ import sys
 from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import asdict, astuple, dataclass, field, replace
 from itertools import product
 from pathlib import Path
 from statistics import median
 from string import Template
-from typing import Any, NamedTuple
+from typing import Any
+
+from python.peer import FIRST, OUTLOOK_PERIODS, Start
 
 SOURCES = Path(__file__).resolve().parent
 ROOT = SOURCES.parent.parent
@@ -34,8 +36,6 @@ GRACE = 120.0  # seconds that a program may take beyond the time asked for, to s
 IMPACTS_LIMIT = 1800.0  # seconds that a peer may take for all starts of the accuracy table
 
 POINTS = [(1.8, 0.25), (0.6, 0.75), (0.7, 2.5), (1.7, 2.25), (1.3, 0.75), (1.11, 2.0), (1.11, 3.0)]  # N, P, Q to U
-FIRST = 5  # impacts compared for each start
-PERIODS = 20  # forcing periods for which a start is followed
 TOLERANCE = 1e-6  # difference in time that makes an impact wrong
 
 
@@ -167,23 +167,12 @@ def measure(contenders: list[Contender], rounds: int, seconds: float) -> tuple[d
     return rows, list(dict.fromkeys(missing))
 
 
-class Start(NamedTuple):
-    """An undamped oscillator and where its motion begins."""
-
-    inverse_beta: float
-    gap: float
-    restitution: float
-    x: float
-    v: float
-    phase: float
-
-    def flight(self, s: float) -> tuple[float, float]:
-        """Position and velocity after the time `s`, without the stop."""
-        beta = 1.0 / self.inverse_beta
-        f = 1.0 / ((1.0 - beta) * (1.0 + beta))
-        a, b = self.x - f * math.sin(self.phase), self.v - f * beta * math.cos(self.phase)
-        sin, cos, angle = math.sin(s), math.cos(s), beta * s + self.phase
-        return a * cos + b * sin + f * math.sin(angle), b * cos - a * sin + f * beta * math.cos(angle)
+def flight(start: Start, s: float) -> tuple[float, float]:
+    """Position and velocity after the time `s`, without the stop."""
+    beta, f = start.beta, 1.0 / ((1.0 - start.beta) * (1.0 + start.beta))
+    a, b = start.x - f * math.sin(start.phase), start.v - f * beta * math.cos(start.phase)
+    sin, cos, angle = math.sin(s), math.cos(s), beta * s + start.phase
+    return a * cos + b * sin + f * math.sin(angle), b * cos - a * sin + f * beta * math.cos(angle)
 
 
 def random_numbers(state: int) -> Iterator[float]:
@@ -210,24 +199,24 @@ def near_grazing(numbers: Iterator[float]) -> Start:
         height = first_maximum(start)
         # a gap like those of T and U, and a start that is not close to it
         if 1.5 <= height < 3.5 and start.x < height - 0.1:
-            return start._replace(gap=height - depth)
+            return replace(start, gap=height - depth)
 
 
 def first_maximum(start: Start) -> float:
     """The position at the first local maximum of the flight; infinite where none lies within two forcing periods."""
     step = 0.01
-    rises = [start.flight(step * k)[1] > 0.0 for k in range(1400)]
+    rises = [flight(start, step * k)[1] > 0.0 for k in range(1400)]
     low = next((step * k for k in range(1399) if rises[k] and not rises[k + 1]), None)
     if low is None:
         return math.inf
     high = low + step
     for _ in range(50):
         middle = 0.5 * (low + high)
-        if start.flight(middle)[1] > 0.0:
+        if flight(start, middle)[1] > 0.0:
             low = middle
         else:
             high = middle
-    return start.flight(low)[0]
+    return flight(start, low)[0]
 
 
 def random_starts(number: int) -> list[Start]:
@@ -239,11 +228,11 @@ def random_starts(number: int) -> list[Start]:
 
 def truth(vibro: Path, start: Start) -> tuple[list[float], bool]:
     """The true times of the first impacts, by `vibro simulate`, and whether a peer may find more than these."""
-    switches = [f"--{name.replace('_', '-')}={value!r}" for name, value in start._asdict().items()]
+    switches = [f"--{name.replace('_', '-')}={value!r}" for name, value in asdict(start).items()]
     answer = call([vibro, "simulate", "--json", "--quiet", "--impacts", str(FIRST), *switches], limit=60.0)
     times: list[float] = []
     for event in json.loads(answer)["events"]:
-        if event["time"] > PERIODS * math.tau * start.inverse_beta:
+        if event["time"] > start.horizon:
             return times, False
         if event["kind"] in ("stick", "release"):
             # the peers do not know that a mass can stick
@@ -266,7 +255,7 @@ def compare(peers: list[Contender], vibro: Path, number: int) -> list[list[Any]]
     with ThreadPoolExecutor(os.cpu_count()) as pool:  # on all cores, since nothing is timed here
         truths = list(pool.map(lambda start: truth(vibro, start), starts))
     file = Path("starts.txt").resolve()
-    file.write_text("".join(" ".join(map(repr, start)) + "\n" for start in starts))
+    file.write_text("".join(" ".join(map(repr, astuple(start))) + "\n" for start in starts))
 
     def in_groups(counts: list[int]) -> list[int]:
         return [sum(counts[first : first + number]) for first in range(0, len(counts), number)]
@@ -395,7 +384,7 @@ def main() -> None:
 
     path = folder / "performance.md" if asked.quick else ROOT / "docs/performance.md"
     asked_for = {"rounds": asked.rounds, "seconds": f"{asked.seconds:g}", "starts": asked.starts}
-    fixed = {"compile": COMPILE, "first": FIRST, "periods": PERIODS, "tolerance": f"{TOLERANCE:g}".replace("e-0", "e-")}
+    fixed = {"compile": COMPILE, "first": FIRST, "periods": OUTLOOK_PERIODS, "tolerance": f"{TOLERANCE:g}".replace("e-0", "e-")}
     page = Template((SOURCES / "performance.md.in").read_text()).substitute(
         asked_for | fixed,
         rates=rate_table(rows, asked.rounds),

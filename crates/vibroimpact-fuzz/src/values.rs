@@ -5,7 +5,8 @@ use proptest::prelude::*;
 /// A strategy for texts.
 pub type ProptestText = BoxedStrategy<String>;
 
-fn one_of(texts: &'static [&'static str]) -> ProptestText {
+/// One of these words.
+pub(crate) fn word(texts: &'static [&'static str]) -> ProptestText {
     prop::sample::select(texts).prop_map(str::to_owned).boxed()
 }
 
@@ -16,7 +17,7 @@ pub(crate) fn typed(x: f64) -> String {
 
 /// A text that is no valid number, or an extreme number.
 pub(crate) fn odd() -> ProptestText {
-    one_of(&[
+    word(&[
         "nan",
         "NaN",
         "inf",
@@ -70,7 +71,7 @@ pub(crate) fn plain() -> ProptestText {
             let size = 10_f64.powf(x);
             typed(if minus { -size } else { size })
         }),
-        2 => one_of(&["0", "-0", "1", "-1", "0.5", "1e-9", "1e-12", "-1e-12", "1e-300", "1e300", "1e140", "-1e-200", "1e6"]),
+        2 => word(&["0", "-0", "1", "-1", "0.5", "1e-9", "1e-12", "-1e-12", "1e-300", "1e300", "1e140", "-1e-200", "1e6"]),
     ]
     .boxed()
 }
@@ -93,7 +94,7 @@ pub(crate) fn ratio() -> ProptestText {
             .prop_map(move |(p, q, d, minus)| typed(near(f64::from(p) / f64::from(q), d, minus))),
         2 => (1..9_u32, 1..9_u32).prop_map(|(p, q)| typed(f64::from(p) / f64::from(q))),
         1 => (-3.0..2.0_f64).prop_map(|d| typed(10_f64.powf(d))),
-        1 => one_of(&["1", "2", "0.5", "3", "1e-300", "1e300", "1e-9", "1e9", "0", "-1"]),
+        1 => word(&["1", "2", "0.5", "3", "1e-300", "1e300", "1e-9", "1e9", "0", "-1"]),
     ]
     .boxed()
 }
@@ -112,7 +113,7 @@ pub(crate) fn gap(beta: f64) -> ProptestText {
             let away = 10_f64.powf(d);
             typed(if minus { at - away } else { at + away })
         }),
-        3 => one_of(&["-1", "0", "1", "-0", "2", "-0.5", "1e-300", "-1e-300", "1e300", "-1e300", "1e9"]),
+        3 => word(&["-1", "0", "1", "-0", "2", "-0.5", "1e-300", "-1e-300", "1e300", "-1e300", "1e9"]),
     ]
     .boxed()
 }
@@ -125,7 +126,7 @@ pub(crate) fn restitution() -> ProptestText {
             let small = 10_f64.powf(d);
             typed(if top { 1.0 - small } else { small })
         }),
-        3 => one_of(&["0", "1", "0.5", "0.999999", "1e-12", "0.999999999999", "1e-300", "-0"]),
+        3 => word(&["0", "1", "0.5", "0.999999", "1e-12", "0.999999999999", "1e-300", "-0"]),
     ]
     .boxed()
 }
@@ -135,7 +136,7 @@ pub(crate) fn damping() -> ProptestText {
     prop_oneof![
         4 => (0.0..2.0_f64).prop_map(typed),
         4 => (-16.0..0.0_f64).prop_map(|d| typed(10_f64.powf(d))),
-        2 => one_of(&["0", "1", "0.999999999", "1.000000001", "2", "1e-300", "1e300", "100"]),
+        2 => word(&["0", "1", "0.999999999", "1.000000001", "2", "1e-300", "1e300", "100"]),
     ]
     .boxed()
 }
@@ -144,7 +145,7 @@ pub(crate) fn damping() -> ProptestText {
 pub(crate) fn count() -> ProptestText {
     prop_oneof![
         12 => (1..6_u32).prop_map(|n| n.to_string()),
-        1 => one_of(&["0", "-1", "1e3", "1000000000000000000", "99999999999999999999", "2.5", "", "one", "-0", "+3", "٣"]),
+        1 => word(&["0", "-1", "1e3", "1000000000000000000", "99999999999999999999", "2.5", "", "one", "-0", "+3", "٣"]),
     ]
     .boxed()
 }
@@ -158,7 +159,7 @@ pub(crate) fn range(low: f64, high: f64) -> ProptestText {
         }),
         2 => (number(), number(), count()).prop_map(|(a, b, n)| format!("{a}:{b}:{n}")),
         1 => (0.1..1.0_f64, 1.0..9.0_f64).prop_map(|(a, b)| format!("{}:{}:3:log", typed(a), typed(b))),
-        1 => one_of(&["", ":", "::", ":::", "1:2", "1:2:3:4", "a:b:c", "0:1:1", "1:1:1", "1:1:5", "0:1:3:log", "0:1:3:lin",
+        1 => word(&["", ":", "::", ":::", "1:2", "1:2:3:4", "a:b:c", "0:1:1", "1:1:1", "1:1:5", "0:1:3:log", "0:1:3:lin",
             "-1e308:1e308:3", "0:1:1000001", "0:5e-324:3", "1:1.0000000000000002:3"]),
     ]
     .boxed()
@@ -172,7 +173,7 @@ pub(crate) fn interval(low: f64, high: f64) -> ProptestText {
             format!("{}:{}", typed(at(a)), typed(at(a + (1.0 - a) * w)))
         }),
         1 => (number(), number()).prop_map(|(a, b)| format!("{a}:{b}")),
-        1 => one_of(&["", ":", "1:1", "2:1", "1:2:3", "a:b", "0:1e-300", "1e-9:1", "0:1e-12", "-1:1"]),
+        1 => word(&["", ":", "1:1", "2:1", "1:2:3", "a:b", "0:1e-300", "1e-9:1", "0:1e-12", "-1:1"]),
     ]
     .boxed()
 }
@@ -181,8 +182,8 @@ pub(crate) fn interval(low: f64, high: f64) -> ProptestText {
 pub(crate) fn label() -> ProptestText {
     prop_oneof![
         10 => (1..5_u32, 1..4_u32).prop_map(|(m, n)| format!("{m}/{n}")),
-        2 => one_of(&["0", "inf/1", "inf/2", "1/1", "2/2", "12/7"]),
-        1 => one_of(&["3/0", "0/1", "1", "", "-1/1", "nan", "1/1/1", "∞/1", "10001/1", "99999999999/1", " 1/1", "1 / 1", "inf", "chaotic"]),
+        2 => word(&["0", "inf/1", "inf/2", "1/1", "2/2", "12/7"]),
+        1 => word(&["3/0", "0/1", "1", "", "-1/1", "nan", "1/1/1", "∞/1", "10001/1", "99999999999/1", " 1/1", "1 / 1", "inf", "chaotic"]),
     ]
     .boxed()
 }
@@ -192,7 +193,7 @@ pub(crate) fn file(ends: &'static [&'static str]) -> ProptestText {
     prop_oneof![
         8 => prop::sample::select(ends).prop_map(|end| format!("out{end}")),
         1 => prop::sample::select(ends).prop_map(|end| format!("ünï cødé{end}")),
-        1 => one_of(&["", ".", "none/out.csv", "none/out.svg", "out", "out.pdf", ".svg", "-", "/proc/vibroimpact.png", "a\u{202e}b.svg"]),
+        1 => word(&["", ".", "none/out.csv", "none/out.svg", "out", "out.pdf", ".svg", "-", "/proc/vibroimpact.png", "a\u{202e}b.svg"]),
     ]
     .boxed()
 }

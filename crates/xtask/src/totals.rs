@@ -87,22 +87,9 @@ fn count(counts: &str, separator: char) -> Totals {
     totals
 }
 
-/// The text without parts in round brackets.
+/// The text without parts in round brackets, which are not nested.
 fn without_brackets(text: &str) -> String {
-    let mut depth = 0_usize;
-    text.chars()
-        .filter(|&c| {
-            match c {
-                '(' => depth += 1,
-                ')' => {
-                    depth = depth.saturating_sub(1);
-                    return false;
-                }
-                _ => {}
-            }
-            depth == 0
-        })
-        .collect()
+    text.split('(').map(|part| part.split_once(')').map_or(part, |(_, after)| after)).collect()
 }
 
 #[cfg(test)]

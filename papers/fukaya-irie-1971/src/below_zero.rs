@@ -2,7 +2,6 @@
 
 use crate::claims::{Agreement, Section};
 use crate::figure04::cells;
-use crate::folder::Csv;
 use crate::grid::{Grid, settle_grid};
 use crate::{Error, Run, looks, search};
 use vibroimpact::math::sort_by;
@@ -13,12 +12,9 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<(), Error> {
     let x = Span::new(0.4, 2.0, run.size(33, 17))?;
     let gap = Span::new(-1.0, 0.0, run.size(9, 5))?;
     let grid = settle_grid(run, "figure 4 below zero", (x, gap, run.size(12, 4)))?;
-    let mut csv = Csv::new(
-        "Figure 4 continued below delta = 0: motions and the share of starts that lead to them, restitution 0.5",
-        "inverse_beta,delta,motion,share_of_starts",
-    );
-    search::rows(&grid, &mut csv);
-    run.folder.write("figure-04-below-zero.csv", csv.bytes())?;
+    let about =
+        "Figure 4 continued below delta = 0: motions and the share of starts that lead to them, restitution 0.5";
+    run.folder.write("figure-04-below-zero.csv", search::table(about, &[&grid]).bytes())?;
     let labels = grid.labels();
     let panel =
         Panel::new(FigureAxis::new("1/*β*").range(0.375, 2.025), FigureAxis::new("gap *δ*").range(-1.0625, 0.0625))

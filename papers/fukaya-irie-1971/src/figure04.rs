@@ -49,15 +49,12 @@ pub(crate) fn run(run: &mut Run<'_>, grid: &Grid) -> Result<Plane, Error> {
     let right = search::right(run)?;
     let plane = Plane { regions, lower_left, right };
 
-    let mut csv = Csv::new(
-        "Figure 4: motions found at each point and the share of starts that lead to them, restitution 0.5",
-        "inverse_beta,delta,motion,share_of_starts",
-    );
-    search::rows(grid, &mut csv);
-    run.folder.write("figure-04.csv", csv.bytes())?;
+    let about = "Figure 4: motions found at each point and the share of starts that lead to them, restitution 0.5";
+    run.folder.write("figure-04.csv", search::table(about, &[grid]).bytes())?;
     run.folder.write("figure-04-curves.csv", curves(&plane).bytes())?;
     run.folder.write("figure-04-points.csv", points().bytes())?;
-    let searched = search::csv(&[&plane.lower_left, &plane.right]);
+    let about = "Figure 4: motions found with finer steps in two parts of the plane";
+    let searched = search::table(about, &[&plane.lower_left.grid, &plane.right.grid]);
     run.folder.write("figure-04-search.csv", searched.bytes())?;
     let svg = run.folder.figure("figure-04", draw::figure(grid, &plane))?;
 

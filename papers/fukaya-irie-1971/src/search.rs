@@ -56,23 +56,13 @@ fn part(run: &Run<'_>, stage: &str, (x, gap, starts): (Span, Span, u64)) -> Resu
     Ok(Part { grid, window })
 }
 
-/// Both parts as a table.
-pub(crate) fn csv(parts: &[&Part]) -> Csv {
-    let mut csv = Csv::new(
-        "Figure 4: motions found with finer steps in two parts of the plane",
-        "inverse_beta,delta,motion,share_of_starts",
-    );
-    for part in parts {
-        rows(&part.grid, &mut csv);
-    }
-    csv
-}
-
-/// One row for each point and motion.
-pub(crate) fn rows(grid: &Grid, csv: &mut Csv) {
-    for point in &grid.points {
+/// A table with a row for each point and motion of these grids.
+pub(crate) fn table(about: &str, grids: &[&Grid]) -> Csv {
+    let mut csv = Csv::new(about, "inverse_beta,delta,motion,share_of_starts");
+    for point in grids.iter().flat_map(|grid| &grid.points) {
         for found in &point.motions {
             csv.row(&[&point.inverse_beta, &point.gap, &found.verdict.label(), &point.share(found)]);
         }
     }
+    csv
 }

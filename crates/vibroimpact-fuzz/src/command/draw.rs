@@ -5,7 +5,7 @@ use super::machines;
 use crate::plan::{drawn, small};
 use crate::system::{parameter, start, system};
 use crate::values::{
-    ProptestText, count, damping, file, interval, label, number, odd, plain, range, restitution, typed,
+    ProptestText, count, damping, file, interval, label, number, odd, plain, range, restitution, typed, word,
 };
 use clap::{Arg, ArgAction, Command};
 use proptest::prelude::*;
@@ -138,11 +138,6 @@ fn varied(kind: &str, machine: bool) -> ProptestText {
         Some(_) => plain(),
     };
     (name, value).prop_map(|(name, value)| format!("{name}={value}")).boxed()
-}
-
-/// One of these words.
-fn word(words: &'static [&'static str]) -> ProptestText {
-    prop::sample::select(words).prop_map(str::to_owned).boxed()
 }
 
 /// An option of a command, or an argument without a name, with this probability; numbers that vary are those of a machine, or else
