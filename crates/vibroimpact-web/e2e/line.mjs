@@ -1,7 +1,7 @@
 /** Tests of the line: its diagram and the map show the same place, and its events are listed. */
 
 import assert from "node:assert/strict";
-import { drawn, hash, place, sharp, until } from "./page.mjs";
+import { drawn, enter, hash, place, sharp, until } from "./page.mjs";
 
 export async function the_diagram_and_the_map_show_the_same_place({ open, folder }) {
   const { page } = await open("#line=1.11,1,1.11,2.5&panel=line&view=0.9,1.4,0.5,3&impacts=200");
@@ -22,8 +22,7 @@ export async function the_diagram_and_the_map_show_the_same_place({ open, folder
   await page.mouse.move(...await place(page, 1.3, 2.2, [0.9, 1.4, 0.5, 3]));
   await until("no mark far from the line", async () => page.locator(".linked-mark").isHidden());
   // the ends are typed
-  await page.locator(".line-ends input").nth(3).fill("2,2");
-  await page.keyboard.press("Enter");
+  await enter(page.locator(".line-ends input").nth(3), "2,2");
   assert.equal((await hash(page)).get("line"), "1.11,1,1.11,2.2");
   await until("the diagram of the shorter line", async () => /to 2\.200/.test(await image.getAttribute("alt")), 60);
   await image.click({ position: { x: 0.5 * box.width, y: 0.4 * box.height } });

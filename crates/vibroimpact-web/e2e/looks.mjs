@@ -8,43 +8,29 @@ import { drawn, pictures, until } from "./page.mjs";
 const S = "#point=1&inverse_beta=1.3&gap=0.75";
 const axe = await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
-async function fits(page, width) {
-  const wide = await page.evaluate(() => [document.documentElement.scrollWidth, document.body.scrollWidth]);
-  assert.ok(Math.max(...wide) <= width, `${wide} pixels in ${width}`);
-}
-
 /** Waits for the figures of the point. */
 const figures = (page) => until("the figures are there", async () => (await pictures(page)) >= 4);
 
-async function shown({ open, folder }, name, viewport, options = {}, hash = S) {
-  const { page } = await open(hash, { viewport, ...options });
-  await drawn(page);
-  await figures(page);
-  await page.waitForTimeout(500);
-  await fits(page, viewport.width);
-  await page.screenshot({ path: `${folder}/${name}.png` });
-  return page;
-}
+const SIZES = [
+  ["360", { viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true }],
+  ["1000x700", { viewport: { width: 1000, height: 700 } }],
+  ["1440x900-dark", { viewport: { width: 1440, height: 900 }, colorScheme: "dark" }],
+  ["4k", { viewport: { width: 3840, height: 2160 } }],
+  ["900x600-2x", { viewport: { width: 900, height: 600 }, deviceScaleFactor: 2 }],
+];
 
-export async function at_360_pixels(given) {
-  const page = await shown(given, "360", { width: 360, height: 740 }, { hasTouch: true, isMobile: true });
-  await page.screenshot({ path: `${given.folder}/360-whole.png`, fullPage: true });
-}
-
-export async function at_1000_by_700(given) {
-  await shown(given, "1000x700", { width: 1000, height: 700 });
-}
-
-export async function at_1440_by_900_dark(given) {
-  await shown(given, "1440x900-dark", { width: 1440, height: 900 }, { colorScheme: "dark" });
-}
-
-export async function at_4k(given) {
-  await shown(given, "4k", { width: 3840, height: 2160 });
-}
-
-export async function at_twice_the_density(given) {
-  await shown(given, "900x600-2x", { width: 900, height: 600 }, { deviceScaleFactor: 2 });
+export async function the_page_fits_in_every_size({ open, folder }) {
+  for (const [name, options] of SIZES) {
+    const { page } = await open(S, options);
+    await drawn(page);
+    await figures(page);
+    await page.waitForTimeout(500);
+    const { width } = options.viewport;
+    const wide = await page.evaluate(() => [document.documentElement.scrollWidth, document.body.scrollWidth]);
+    assert.ok(Math.max(...wide) <= width, `${name}: ${wide} pixels in ${width}`);
+    await page.screenshot({ path: `${folder}/${name}.png` });
+    if (name === "360") await page.screenshot({ path: `${folder}/360-whole.png`, fullPage: true });
+  }
 }
 
 export async function touch_pans_pinches_and_taps({ open }) {

@@ -50,9 +50,23 @@ export const pixel = (page, at) => page.evaluate(([x, y]) => {
   return [...one.getImageData(0, 0, 1, 1).data].slice(0, 3);
 }, at);
 
-/** The position on the screen of a point of the first view, computed from the frame of the plane on the page. */
-export async function place(page, x, y, [left, right, bottom, top] = [0.375, 2.025, 0, 5]) {
-  const box = await page.locator("#plane").boundingBox();
+/** Writes into a field and leaves it with Enter. */
+export async function enter(field, text) {
+  await field.fill(text);
+  await field.press("Enter");
+}
+
+/** Drags the pointer from one position on the screen to another one. */
+export async function drag(page, from, to) {
+  await page.mouse.move(...from);
+  await page.mouse.down();
+  await page.mouse.move(...to, { steps: 6 });
+  await page.mouse.up();
+}
+
+/** The position on the screen of a point of the first view, or of another window, computed from the frame of the plane on the page. */
+export async function place(page, x, y, [left, right, bottom, top] = [0.375, 2.025, 0, 5], plane = "#plane") {
+  const box = await page.locator(plane).boundingBox();
   const em = await page.evaluate(() => parseFloat(getComputedStyle(document.documentElement).fontSize));
   const narrow = box.width < 26 * em;
   const [l, b, t, r] = [Math.round(em * (narrow ? 3.2 : 4.2)), Math.round(3.3 * em), Math.round(0.7 * em), Math.round(0.9 * em)];
@@ -90,7 +104,10 @@ export function tasks(page, path, kind) {
   return found;
 }
 
-/** Lets a page that is loaded next list its requests in `asked`, because the browser reports cancelled ones only later. */
+/**
+ * Lets a page that is loaded next list its requests in `asked`, because the browser reports cancelled ones only later. Those for tiles are
+ * sent when the promise in `held` is kept.
+ */
 export const listRequests = (page) => page.addInitScript(() => {
   const original = globalThis.fetch;
   globalThis.asked = [];
@@ -99,7 +116,9 @@ export const listRequests = (page) => page.addInitScript(() => {
     globalThis.asked.push(one);
     // a request that was stopped ends a moment later
     one.abreast = globalThis.asked.filter((of) => of.path === one.path && !of.done && !of.signal?.aborted).length;
+    const stopped = () => new Promise((_, stop) => one.signal?.addEventListener("abort", () => stop(one.signal.reason)));
     try {
+      if (one.path === "/api/tile") await Promise.race([globalThis.held, stopped()]);
       const response = await original(path, options);
       const bytes = await response.arrayBuffer();
       return new Response(bytes, { status: response.status, headers: response.headers });

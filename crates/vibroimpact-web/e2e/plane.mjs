@@ -1,7 +1,7 @@
 /** Tests of the plane: tiles, zoom, hover, settings, address. */
 
 import assert from "node:assert/strict";
-import { SMALL, WIDE, answer, complete, drawn, hash, legend, pixel, place, sharp, tasks, until } from "./page.mjs";
+import { SMALL, WIDE, answer, complete, drag, drawn, enter, hash, legend, listRequests, pixel, place, sharp, tasks, until } from "./page.mjs";
 
 export async function loads_without_a_complaint({ open }) {
   const { page } = await open();
@@ -145,42 +145,23 @@ export async function hover_names_the_motion_the_server_settles_into({ open, add
 }
 
 export async function at_most_three_tiles_are_under_way_and_those_out_of_view_are_given_up({ open }) {
-  const { page } = await open();
-  // counted in the page, because the browser reports cancelled requests only later
-  await page.evaluate(() => {
-    const original = globalThis.fetch;
-    globalThis.count = { under: 0, most: 0, given: 0 };
-    globalThis.held = Promise.resolve();
-    globalThis.fetch = async (path, options) => {
-      if (path !== "/api/tile") return original(path, options);
-      const { count } = globalThis;
-      count.most = Math.max(count.most, ++count.under);
-      const givenUp = new Promise((_, stop) => options.signal.addEventListener("abort", () => {
-        count.given++;
-        stop(options.signal.reason);
-      }));
-      try {
-        await Promise.race([globalThis.held, givenUp]);
-        const response = await original(path, options);
-        const bytes = await response.arrayBuffer();
-        return new Response(bytes, { status: response.status, headers: response.headers });
-      } finally {
-        count.under--;
-      }
-    };
-  });
+  const { page } = await open("about:blank");
+  await listRequests(page);
+  await page.goto(`${page.address}#impacts=200`);
   await drawn(page);
   // no tile is ready before the view changes, however fast it is computed
   await page.evaluate(() => { globalThis.held = new Promise((go) => { globalThis.release = go; }); });
+  const tiles = async (wanted) => (await page.evaluate(() => globalThis.asked.map(({ path, signal, done, abreast }) =>
+    ({ path, given: signal?.aborted, done, abreast })))).filter(({ path, ...one }) => path === "/api/tile" && wanted(one));
   for (let k = 0; k < 6; k++) {
     await page.locator("#zoom-in").click();
-    await page.waitForFunction(() => globalThis.count.under >= 2);
+    await until("tiles are under way", async () => (await tiles(({ given, done }) => !given && !done)).length >= 2);
   }
   await page.locator("#whole").click();
-  await page.waitForFunction(() => globalThis.count.given > 0);
+  await until("tiles are given up", async () => (await tiles(({ given }) => given)).length > 0);
   await page.evaluate(() => globalThis.release());
   await drawn(page);
-  const { most } = await page.evaluate(() => globalThis.count);
+  const most = Math.max(...(await tiles(() => true)).map(({ abreast }) => abreast));
   assert.ok(most >= 2 && most <= 3, `${most} at a time`);
 }
 
@@ -221,10 +202,7 @@ export async function pans_by_drag_and_arrows({ open }) {
   const { page } = await open();
   await drawn(page);
   const [x, y] = await place(page, 1.2, 2);
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  await page.mouse.move(x + 100, y + 50, { steps: 5 });
-  await page.mouse.up();
+  await drag(page, [x, y], [x + 100, y + 50]);
   const [left, , bottom] = (await hash(page)).get("view").split(",").map(Number);
   assert.ok(left < 0.375 && bottom > 0, `moved to ${left}, ${bottom}`);
   assert.ok(!(await hash(page)).has("point"), "a drag chooses nothing");
@@ -239,13 +217,11 @@ export async function restitution_changes_the_plane({ open }) {
   const before = await legend(page);
   const asked = page.waitForRequest((request) => request.url().endsWith("/api/tile")
     && request.postDataJSON().system.restitution === 0.8);
-  await page.locator("#field-restitution").fill("0.8");
-  await page.keyboard.press("Enter");
+  await enter(page.locator("#field-restitution"), "0.8");
   await asked;
   assert.equal((await hash(page)).get("restitution"), "0.8");
   await until("the shares are others", async () => (await legend(page)).get("1/1") !== before.get("1/1"));
-  await page.locator("#field-restitution").fill("1.5");
-  await page.keyboard.press("Enter");
+  await enter(page.locator("#field-restitution"), "1.5");
   assert.equal(await page.locator("#field-restitution").getAttribute("aria-invalid"), "true");
   assert.equal((await hash(page)).get("restitution"), "0.8", "an illegal value changes nothing");
 }

@@ -1,7 +1,7 @@
 /** Tests of fields, ranges, undo and links. */
 
 import assert from "node:assert/strict";
-import { WIDE, drawn, hash, place, until } from "./page.mjs";
+import { WIDE, drag, drawn, enter, hash, place, until } from "./page.mjs";
 
 export async function a_decimal_comma_is_a_point_and_nonsense_is_refused({ open }) {
   const { page } = await open("#impacts=200");
@@ -17,19 +17,14 @@ export async function a_decimal_comma_is_a_point_and_nonsense_is_refused({ open 
   assert.equal((await hash(page)).get("damping"), "0.05");
   assert.equal(await field.inputValue(), "0.05");
   for (const [text, sentence] of [["-0.1", /ζ = -0\.1 is not possible: 0 ≤ ζ\./], ["1,000.5", /"1,000\.5" is not a number/], ["", /A number is missing/]]) {
-    if (text) await type(text);
-    else {
-      await field.fill("");
-      await page.keyboard.press("Enter");
-    }
+    await (text ? type(text) : enter(field, ""));
     assert.match(await page.locator(".parameter", { has: field }).locator(".why").textContent(), sentence);
     assert.equal((await hash(page)).get("damping"), "0.05", text);
   }
   await page.keyboard.press("Escape");
   assert.equal(await field.inputValue(), "0.05");
   const { page: other } = await open("#point=1&inverse_beta=1.3&gap=0.75&impacts=200");
-  await other.locator("#point input[aria-label='inverse frequency']").fill("1,25");
-  await other.keyboard.press("Enter");
+  await enter(other.locator("#point input[aria-label='inverse frequency']"), "1,25");
   await until("the point is moved", async () => (await hash(other)).get("inverse_beta") === "1.25");
   // a slider takes no letters, so keys of the page work
   await page.locator("#parameters .parameter:not([hidden]) input[type=range]").first().focus();
@@ -53,22 +48,16 @@ export async function ranges_are_typed_boxes_dragged_and_both_undone({ open }) {
   await drawn(page);
   const range = (k) => page.locator(`#range-${k}`);
   assert.deepEqual(await Promise.all([0, 1, 2, 3].map((k) => range(k).inputValue())), ["0.375", "2.025", "0", "5"]);
-  await range(1).fill("1.5");
-  await page.keyboard.press("Enter");
+  await enter(range(1), "1.5");
   const view = async () => (await hash(page)).get("view")?.split(",").map(Number);
   await until("the axis ends there", async () => (await view())?.[1] === 1.5);
   assert.equal((await view())[0], 0.375);
-  await range(0).fill("1.6");
-  await page.keyboard.press("Enter");
+  await enter(range(0), "1.6");
   assert.equal(await range(0).getAttribute("aria-invalid"), "true");
   await page.keyboard.press("Escape");
   const window = await view();
-  const [[ax, ay], [bx, by]] = [await place(page, 1, 2, window), await place(page, 1.25, 3, window)];
   await page.locator("#box-tool").click();
-  await page.mouse.move(ax, ay);
-  await page.mouse.down();
-  await page.mouse.move(bx, by, { steps: 4 });
-  await page.mouse.up();
+  await drag(page, await place(page, 1, 2, window), await place(page, 1.25, 3, window));
   const near = (found, wanted) => found?.every((value, k) => Math.abs(value - wanted[k]) < 0.02);
   await until("the box fills the view", async () => near(await view(), [1, 1.25, 2, 3]));
   assert.equal(await page.locator("#box-tool").getAttribute("aria-pressed"), "false");

@@ -1,7 +1,7 @@
 /** Tests of the page in the units of a machine. */
 
 import assert from "node:assert/strict";
-import { drawn, hash, place, sharp, until } from "./page.mjs";
+import { drawn, enter, hash, place, sharp, until } from "./page.mjs";
 
 /** The body of docs/units.md. */
 const MACHINE = "machine=0.8,12000,30";
@@ -25,19 +25,16 @@ export async function a_machine_has_axes_in_its_units({ open }) {
   // the ends of the axes
   const end = (k) => page.locator(`#range-${k}`).inputValue().then(Number);
   await until("the ends of the axes in Hz and mm", async () => Math.abs((await end(1)) - NATURAL) < 1e-3 && Math.abs((await end(2)) - 0.4 * LENGTH) < 1e-3);
-  await page.locator("#range-1").fill("18");
-  await page.keyboard.press("Enter");
+  await enter(page.locator("#range-1"), "18");
   await until("the axis ends at 18 Hz", async () => Math.abs((await view())[1] * NATURAL - 18) < 1e-4);
   assert.equal(await page.locator("#range-1").inputValue(), "18");
   // the fields of the point, and what they refuse
   const field = page.locator("#point input[aria-label='frequency of the force']");
   assert.ok(Math.abs(Number(await field.inputValue()) - 0.8 * NATURAL) < 1e-9);
-  await field.fill("15");
-  await page.keyboard.press("Enter");
+  await enter(field, "15");
   await until("the point is at 15 Hz", async () => Math.abs(Number((await state()).get("beta")) * NATURAL - 15) < 1e-9);
   assert.equal(await field.inputValue(), "15");
-  await field.fill("-3");
-  await page.keyboard.press("Enter");
+  await enter(field, "-3");
   assert.match(await page.locator("#point > .head .fields").textContent(), /f = -3 Hz is not possible: 0 Hz < f\./);
   await page.keyboard.press("Escape");
   // the readout, at the pointer and of the chosen point
@@ -47,8 +44,7 @@ export async function a_machine_has_axes_in_its_units({ open }) {
   await until("the chosen point", async () => /f = 15 Hz\s+δ = 2 mm/.test(await page.locator("#readout").textContent()));
   assert.match(await page.title(), /f .* Hz, δ 1 to 3\.5 mm.*point f 15 Hz, δ 2 mm/);
   // the start
-  await page.locator("[data-name=basin] input[aria-label='initial position']").fill("1.5");
-  await page.keyboard.press("Enter");
+  await enter(page.locator("[data-name=basin] input[aria-label='initial position']"), "1.5");
   await until("the start is at 1.5 mm", async () => Number((await state()).get("start")?.split(",")[0]) * LENGTH === 1.5);
   // another parameter on no axis
   await page.locator("#axis-x").selectOption("restitution");

@@ -1,7 +1,7 @@
 /** Tests of quantities as colours. */
 
 import assert from "node:assert/strict";
-import { answer, drawn, hash, pixel, place, sharp, tasks, until } from "./page.mjs";
+import { answer, drawn, enter, hash, pixel, place, sharp, tasks, until } from "./page.mjs";
 
 /** A view without undecided points. */
 const VIEW = [0.9, 1.4, 0.4, 1.4];
@@ -52,8 +52,7 @@ export async function the_map_shows_a_quantity_as_colours({ open, address }) {
   await until("the first view again", async () => (await hash(page)).get("view") === VIEW.join());
   // a typed range is in the address, and undone
   const high = await valueAt(address, 1, 0.8);
-  await page.locator("#colour-high").fill(String(high));
-  await page.keyboard.press("Enter");
+  await enter(page.locator("#colour-high"), String(high));
   await until("the typed range", async () => (await range(page))[1] === high);
   assert.equal(Number((await hash(page)).get("range").split(",")[1]), high);
   const last = await colourOf(address, high, await range(page));

@@ -1,7 +1,7 @@
 /** Tests of error messages. */
 
 import assert from "node:assert/strict";
-import { drawn, until } from "./page.mjs";
+import { drawn, enter, until } from "./page.mjs";
 
 export async function what_the_server_refuses_is_said({ open }) {
   // with this second stop there is no room for the mass at the chosen point
@@ -17,8 +17,7 @@ export async function a_server_that_is_gone_is_said_and_found_again({ open }) {
   const { page, complaints } = await open();
   await drawn(page);
   await page.route("**/api/**", (route) => route.abort("connectionrefused"));
-  await page.locator("#field-restitution").fill("0.7");
-  await page.keyboard.press("Enter");
+  await enter(page.locator("#field-restitution"), "0.7");
   await until("it is said", async () => (await page.locator("#strip").textContent()).includes("The server has stopped; start `vibro explore` again."));
   await page.locator("#strip button", { hasText: "Retry" }).click();
   await page.waitForTimeout(300);

@@ -171,7 +171,7 @@ function keyed(view, event) {
     view.unmoved = false;
     v.pan(arrow[0] * far, arrow[1] * far);
     view.changed();
-    hoverCentre(view, centre);
+    for (const name of ["hover", "crosshair"]) view.dispatchEvent(new CustomEvent(name, { detail: centre }));
     clearTimeout(view.wheeled);
     view.wheeled = setTimeout(() => view.settled(), 300);
   } else if (event.key === "+" || event.key === "=") glide(view, 1);
@@ -183,9 +183,4 @@ function keyed(view, event) {
     else pick(view, centre);
   } else return;
   event.preventDefault();
-}
-
-function hoverCentre(view, centre) {
-  view.dispatchEvent(new CustomEvent("hover", { detail: centre }));
-  view.dispatchEvent(new CustomEvent("crosshair", { detail: centre }));
 }

@@ -115,6 +115,10 @@ export class LineTool {
 
   hold(px, xy) {
     this.draft = { px, from: xy, to: xy };
+    const end = () => {
+      this.draft = null;
+      this.plane.view.draw();
+    };
     return {
       move: (at, to) => {
         this.draft.to = to;
@@ -122,13 +126,9 @@ export class LineTool {
       },
       up: (at, to, moved) => {
         if (moved && Math.max(Math.abs(at[0] - px[0]), Math.abs(at[1] - px[1])) > SHORTEST) this.finish(xy, to);
-        this.draft = null;
-        this.plane.view.draw();
+        end();
       },
-      cancel: () => {
-        this.draft = null;
-        this.plane.view.draw();
-      },
+      cancel: end,
     };
   }
 

@@ -2,6 +2,7 @@
 
 import { drawn } from "./dom.js";
 import { ticks } from "./ticks.js";
+import { titled } from "./units.js";
 
 /** Largest zoom. */
 const MOST = 2000;
@@ -171,12 +172,11 @@ export class Plot extends EventTarget {
       const at = this.toY(value);
       parts.push(line(left - 5, at, left, at), text(left - 8, at + 0.3 * em, said, "end", "number"));
     }
-    const named = ({ symbol, unit }) => (unit ? `${symbol} (${unit})` : symbol);
     parts.push(
       drawn("rect", { class: "frame", x: left, y: top, width: wide, height: high }),
-      text(left + wide / 2, bottom + 2.5 * em, named(this.x), "middle", "name"),
+      text(left + wide / 2, bottom + 2.5 * em, titled(this.x), "middle", "name"),
       drawn("text", {
-        class: "name", "text-anchor": "middle", text: named(this.y),
+        class: "name", "text-anchor": "middle", text: titled(this.y),
         transform: `translate(${(this.column + 0.9) * em} ${top + high / 2}) rotate(-90)`,
       }),
     );
