@@ -110,6 +110,22 @@ pub(crate) fn run_reading(mut command: Command, mut read: impl FnMut(&str)) -> R
     if status.success() { Ok(()) } else { Err(format!("`{program}` ended with {status}")) }
 }
 
+/// Copies the files of a folder without subfolders.
+///
+/// # Errors
+/// An error message that names both folders.
+pub(crate) fn copy(from: &Path, to: &Path) -> Result<(), String> {
+    let failed = |error: io::Error| format!("cannot copy {} to {}: {error}", from.display(), to.display());
+    std::fs::create_dir_all(to).map_err(failed)?;
+    for entry in std::fs::read_dir(from).map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        if entry.path().is_file() {
+            std::fs::copy(entry.path(), to.join(entry.file_name())).map_err(failed)?;
+        }
+    }
+    Ok(())
+}
+
 fn verdict(command: &Command, outcome: io::Result<std::process::ExitStatus>) -> Result<(), String> {
     let program = command.get_program().to_string_lossy();
     match outcome {

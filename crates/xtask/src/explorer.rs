@@ -30,7 +30,7 @@ pub(crate) fn test(root: &Path) -> Result<String, String> {
     };
     let target = command::target(root)?;
     let folder = target.join("explorer");
-    copy(&root.join(TESTS), &folder)?;
+    command::copy(&root.join(TESTS), &folder)?;
     let mut install = command::words(root, "npm ci --no-audit --no-fund --silent");
     install.current_dir(&folder);
     command::run(install)?;
@@ -49,19 +49,6 @@ pub(crate) fn test(root: &Path) -> Result<String, String> {
 fn browser() -> Option<PathBuf> {
     let given = std::env::var_os(VARIABLE).map(PathBuf::from);
     given.into_iter().chain(BROWSERS.map(PathBuf::from)).find(|path| path.exists())
-}
-
-/// Copies the files of a folder without subfolders.
-fn copy(from: &Path, to: &Path) -> Result<(), String> {
-    let failed = |error: std::io::Error| format!("cannot copy {} to {}: {error}", from.display(), to.display());
-    std::fs::create_dir_all(to).map_err(failed)?;
-    for entry in std::fs::read_dir(from).map_err(failed)? {
-        let entry = entry.map_err(failed)?;
-        if entry.path().is_file() {
-            std::fs::copy(entry.path(), to.join(entry.file_name())).map_err(failed)?;
-        }
-    }
-    Ok(())
 }
 
 /// A server that is stopped when the tests end, in any way.

@@ -89,21 +89,13 @@ fn copy(root: &Path) -> Result<(), String> {
     let end = if cfg!(target_os = "macos") { "dylib" } else { "so" };
     let compiled = command::target(root)?.join("debug").join(format!("lib_core.{end}"));
     let folder = site_packages(root)?.join("vibroimpact");
-    let copied = || {
-        // a file that is gone from the sources must be gone from the environment too
-        if folder.exists() {
-            fs::remove_dir_all(&folder)?;
-        }
-        fs::create_dir_all(&folder)?;
-        for entry in fs::read_dir(root.join(FILES))? {
-            let file = entry?.path();
-            if let Some(name) = file.file_name().filter(|_| file.is_file()) {
-                fs::copy(&file, folder.join(name))?;
-            }
-        }
-        fs::copy(&compiled, folder.join("_core.abi3.so")).map(drop)
-    };
-    copied().map_err(|error: io::Error| format!("the package cannot be copied to {}: {error}", folder.display()))
+    let failed = |error: io::Error| format!("the package cannot be copied to {}: {error}", folder.display());
+    // a file that is gone from the sources must be gone from the environment too
+    if folder.exists() {
+        fs::remove_dir_all(&folder).map_err(failed)?;
+    }
+    command::copy(&root.join(FILES), &folder)?;
+    fs::copy(&compiled, folder.join("_core.abi3.so")).map(drop).map_err(failed)
 }
 
 /// The folder of the environment in which Python looks for packages.

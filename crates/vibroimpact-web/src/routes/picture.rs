@@ -17,7 +17,7 @@ use core::time::Duration;
 use serde::Deserialize;
 use std::time::Instant;
 use vibroimpact_study::study::{Sheet, in_memory};
-use vibroimpact_study::{Axis, Control, Plan, RunError, Span, Study, Task, Values, Variable};
+use vibroimpact_study::{Control, Plan, RunError, Span, Study, Task, Values};
 
 /// Number of points of the first attempt, which has no time limit.
 const FIRST: f64 = 32.0;
@@ -87,14 +87,10 @@ fn before(end: Instant, plan: &Plan, control: &Control<'_>) -> Result<Sheet, Run
     in_memory(Study::new(plan)?, &Control { stop: &stop, progress: &late, threads: control.threads })
 }
 
-fn axes(plan: &Plan) -> &[Axis<Variable>] {
-    plan.task.axes()
-}
-
 /// Number of points of a plan.
 fn points(plan: &Plan) -> f64 {
     #[allow(clippy::cast_precision_loss)] // fewer than the explorer computes at once
-    axes(plan).iter().map(|axis| axis.over.count() as f64).product()
+    plan.task.axes().iter().map(|axis| axis.over.count() as f64).product()
 }
 
 /// The plan with about this number of points, in cells of the same proportions over the same rectangle.
@@ -145,7 +141,7 @@ mod tests {
     }
 
     fn counts(plan: &Plan) -> Vec<usize> {
-        axes(plan).iter().map(|axis| axis.over.count()).collect()
+        plan.task.axes().iter().map(|axis| axis.over.count()).collect()
     }
 
     #[test]
@@ -153,7 +149,7 @@ mod tests {
         for (number, count) in [(1e9, 90), (8100.0, 90), (900.0, 30), (100.0, 10), (1.0, 1)] {
             let coarser = with_points(&plan(90), number).unwrap();
             assert_eq!(counts(&coarser), [count, count]);
-            for (axis, before) in axes(&coarser).iter().zip(axes(&plan(90))) {
+            for (axis, before) in coarser.task.axes().iter().zip(plan(90).task.axes()) {
                 let edges = |values: &Values, cell: f64| {
                     (values.at(0) - cell / 2.0, values.at(values.count() - 1) + cell / 2.0)
                 };
