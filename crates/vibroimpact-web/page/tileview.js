@@ -5,7 +5,7 @@
  *
  * @typedef {object} Source
  * @property {string} key identifies everything on which the points depend
- * @property {string[]} shallower keys of the same points with smaller budgets, in rising order; correct where decided
+ * @property {import("./asking.js").Stage[]} stages the steps in which its points are computed
  * @property {number} impacts the budget
  * @property {{name: string, description: string, unit: string, per: number, factor: number, of: string} | null} [quantity] whose values are the colours
  * @property {import("./parameters.js").Coordinate} x
