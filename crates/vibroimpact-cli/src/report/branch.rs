@@ -98,8 +98,12 @@ fn events(side: &Side<'_, '_>, columns: &Columns) -> String {
     let rows: Vec<Vec<String>> = passed.into_iter().map(|(place, event)| row(side, place, event, columns)).collect();
     let mut text = if rows.is_empty() { "  no events on the way\n".to_owned() } else { table(&heads, &rows) };
     if let Some((_, event)) = ends.last() {
-        let before = (0..side.points.len()).rev().find(|place| side.event(*place).is_none());
-        let before = before.and_then(|place| side.point(place)).map_or_else(String::new, state);
+        let last = (0..side.points.len()).rev().skip_while(|place| side.event(*place).is_some());
+        let last: Vec<_> =
+            last.take_while(|place| side.event(*place).is_none()).filter_map(|place| side.point(place)).collect();
+        // closest to the end rounding can hide the multipliers
+        let told = last.iter().find(|point| point.stability != "neutral").or(last.first());
+        let before = told.map_or_else(String::new, |point| state(point));
         // without forcing the label does not say the period
         let period = side.branch.points[event.point].period;
         let period = if columns.period { format!(", period {}", precise(period)) } else { String::new() };

@@ -13,12 +13,21 @@ use crate::math::Lu;
 
 /// A system of equations with one equation fewer than unknowns.
 pub(crate) trait Equations {
+    /// Whether a Jacobian takes so long that it pays to evaluate it less often: corrections use it again, solutions are predicted to
+    /// third order, and tangents are those of the corrections.
+    const SLOW: bool = false;
+
     /// The weight of each unknown in the inner product; one for each unknown.
     fn weights(&self) -> &[f64];
 
     /// The residuals of the equations at `w`, and their Jacobian by rows, with one more row that the caller fills in;
     /// `None` where the equations are not defined.
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)>;
+
+    /// The residuals alone.
+    fn residuals(&self, w: &[f64]) -> Option<Vec<f64>> {
+        self.at(w).map(|(miss, _)| miss)
+    }
 
     /// The factors of the derivatives with the last row.
     fn factors(&self, rows: Vec<f64>) -> Option<Lu> {
@@ -45,6 +54,12 @@ pub(crate) trait Equations {
 const MAX_CORRECTIONS: u32 = 10;
 /// After a correction shorter than this, only rounding errors are left, because convergence is quadratic.
 const SETTLED: f64 = 1e-9;
+/// After a correction shorter than this, the next ones use its derivatives again, if others are slow,
+const NEAR: f64 = 1e-5;
+/// while each is shorter than the one before by this factor,
+const SHARE: f64 = 0.1;
+/// until one leaves an error below this.
+const ROUNDING: f64 = 1e-16;
 /// A correction longer than this would lead to another solution and is refused.
 const ASTRAY: f64 = 1.0;
 
@@ -56,36 +71,63 @@ pub(crate) fn unit(width: usize, k: usize, factor: f64) -> Vec<f64> {
 /// The solution near `guess` at which the product of `row` and the unknowns is `level`, with the number of corrections;
 /// `None` if Newton's method does not converge.
 pub(crate) fn correct<E: Equations>(equations: &E, guess: &[f64], row: &[f64], level: f64) -> Option<(Vec<f64>, u32)> {
-    corrected(equations, guess, row, level).map(|(w, count, _)| (w, count))
+    corrected(equations, guess, row, level).map(|found| (found.w, found.count))
 }
 
-/// The same, with the factors of the derivatives at the last correction, whose last row is `row`.
-pub(crate) fn corrected<E: Equations>(
-    equations: &E,
-    guess: &[f64],
-    row: &[f64],
-    level: f64,
-) -> Option<(Vec<f64>, u32, Lu)> {
+/// A solution that Newton's method found.
+pub(crate) struct Corrected {
+    pub(crate) w: Vec<f64>,
+    /// The number of corrections.
+    pub(crate) count: u32,
+    /// The factors of the derivatives that were computed last, whose last row is that of the condition,
+    pub(crate) factors: Lu,
+    /// and the distance of their point from the solution.
+    pub(crate) off: f64,
+}
+
+/// The same, with the factors of the derivatives.
+pub(crate) fn corrected<E: Equations>(equations: &E, guess: &[f64], row: &[f64], level: f64) -> Option<Corrected> {
     let width = guess.len();
     let mut w = guess.to_vec();
+    // the correction of a point for its residuals, and its length
+    let correction = |w: &[f64], miss: Vec<f64>, factors: &Lu| {
+        let off: f64 = row.iter().zip(w).map(|(r, w)| r * w).sum::<f64>() - level;
+        let mut change: Vec<f64> = miss.iter().map(|m| -m).chain([-off]).collect();
+        factors.solve(&mut change);
+        let size = equations.length(&change);
+        (change, size)
+    };
+    let moved = |w: &mut [f64], change: &[f64]| w.iter_mut().zip(change).for_each(|(w, change)| *w += change);
     for count in 1..=MAX_CORRECTIONS {
         let (miss, mut rows) = equations.at(&w)?;
         // the last equation holds the distance along the tangent
         rows[width * (width - 1)..].copy_from_slice(row);
-        let off: f64 = row.iter().zip(&w).map(|(r, w)| r * w).sum::<f64>() - level;
-        let mut change: Vec<f64> = miss.iter().map(|m| -m).chain([-off]).collect();
         let factors = equations.factors(rows)?;
-        factors.solve(&mut change);
-        let size = equations.length(&change);
+        let (change, mut size) = correction(&w, miss, &factors);
         if size.is_nan() || size > ASTRAY {
             return None;
         }
-        for (w, change) in w.iter_mut().zip(&change) {
-            *w += change;
-        }
+        moved(&mut w, &change);
         // the method is quadratic: the next correction would be below rounding
         if size <= SETTLED {
-            return Some((w, count, factors));
+            return Some(Corrected { w, count, factors, off: size });
+        }
+        let off = size;
+        while E::SLOW && size <= NEAR {
+            let (change, next) = correction(&w, equations.residuals(&w)?, &factors);
+            let share = next / size;
+            if next.is_nan() || next > NEAR {
+                break;
+            }
+            moved(&mut w, &change);
+            if share * next <= ROUNDING {
+                // all of them count as the one that they replace
+                return Some(Corrected { w, count: count + 1, factors, off });
+            }
+            if share > SHARE {
+                break;
+            }
+            size = next;
         }
     }
     None

@@ -21,10 +21,6 @@ pub(crate) trait Problem: Clone + Debug {
     type Known: Clone + Debug;
     type Equations: Equations;
 
-    /// Whether equations take so long that it pays to evaluate them less often: solutions are predicted to third order, and a tangent
-    /// is taken from the last correction, which is below 1e-9.
-    const SLOW: bool = false;
-
     fn equations(&self) -> &Self::Equations;
 
     /// The rules for accepting steps and for the sign of a test function.
@@ -247,9 +243,14 @@ impl<P: Problem> Tracer<P> {
         let equations = self.problem.equations();
         let row = equations.row(&self.here.tangent);
         let level = equations.dot(&self.here.tangent, &self.here.w) + h;
-        let (w, corrections, factors) = corrected(equations, guess, &row, level)?;
-        let along = if P::SLOW { tangent_of(equations, &factors, w.len()) } else { None };
-        Some((w, corrections, along))
+        let found = corrected(equations, guess, &row, level)?;
+        let along = if P::Equations::SLOW { tangent_of(equations, &found.factors, found.w.len()) } else { None };
+        // beside a fold the sign of the last component needs the tangent at the solution
+        let turns = |along: &Vec<f64>| {
+            let pace = last(equations.weights()) * last(along) * last(along);
+            found.off > TURNED && pace < STEEP * STEEP
+        };
+        Some((found.w, found.count, along.filter(|along| !turns(along))))
     }
 
     /// The solution near `guess` whose last unknown is exactly `end`, and the number of corrections.
@@ -296,7 +297,7 @@ impl<P: Problem> Tracer<P> {
 
     fn found_between(&self, step: &Step<P::Known>, s: f64) -> Option<Corrected> {
         let mut guess = self.chord(&step.there, s / step.length);
-        if !P::SLOW {
+        if !P::Equations::SLOW {
             return self.across(&guess, s);
         }
         self.round(&mut guess, step, s / step.length);
@@ -423,7 +424,7 @@ impl<P: Problem> Tracer<P> {
             // within rounding of zero the last known sign stays
             *known = sign(*value, zero).or(*known);
         }
-        if P::SLOW {
+        if P::Equations::SLOW {
             self.bend = self.cubic_to(&there);
         }
         self.here = there;
@@ -446,6 +447,10 @@ pub(crate) fn last(w: &[f64]) -> f64 {
 
 /// What a cubic misses at one place tells it at another where it is not so many times as large.
 const MOST_MISSED: f64 = 16.0;
+/// Derivatives this far from a solution have its tangent,
+const TURNED: f64 = 1e-9;
+/// and those farther away the sign of its component along the last unknown, where that exceeds this part of its length.
+const STEEP: f64 = 1e-2;
 /// The factor for the length of the next step after an easy step.
 const GROWTH: f64 = 1.6;
 /// The resolution to which the end of a range is located along the step.

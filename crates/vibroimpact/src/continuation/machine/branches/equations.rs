@@ -83,8 +83,29 @@ impl<const N: usize> MachineEquations<N> {
         let length = w.len();
         let mut rows = vec![0.0; length * length];
         ring.fill(&mut rows, length, &blocks, 1.0);
-        let mut miss: Vec<f64> = blocks.into_iter().flat_map(|block| block.miss).collect();
-        // the sizes of surfaces that do not stand back are 0
+        let miss = Self::stood_back(frame, ring, w, blocks.into_iter().map(|block| block.miss));
+        for (k, slopes) in slopes.into_iter().enumerate() {
+            for (row, slope) in slopes.into_iter().enumerate() {
+                rows[row * length + length - N + k] = slope;
+            }
+        }
+        Some((miss, rows))
+    }
+
+    /// The residuals alone.
+    pub(crate) fn misses(&self, frame: &MachineFrame<'_>, ring: &MachineRing, w: &[f64]) -> Option<Vec<f64>> {
+        let misses: Vec<Vec<f64>> = (0..ring.len()).map(|k| ring.miss(frame, k)).collect::<Option<_>>()?;
+        Some(Self::stood_back(frame, ring, w, misses.into_iter()))
+    }
+
+    /// The residuals of the events of `ring`, with those of surfaces that do not stand back: their sizes are 0.
+    fn stood_back(
+        frame: &MachineFrame<'_>,
+        ring: &MachineRing,
+        w: &[f64],
+        misses: impl Iterator<Item = Vec<f64>>,
+    ) -> Vec<f64> {
+        let mut miss: Vec<f64> = misses.flatten().collect();
         let (m, shape) = (ring.len(), &frame.shape);
         let width = shape.size() + 1;
         for (k, event) in ring.events.iter().enumerate() {
@@ -93,12 +114,7 @@ impl<const N: usize> MachineEquations<N> {
                 miss[((k + m - 1) % m) * width + place] -= w[k * width + place];
             }
         }
-        for (k, slopes) in slopes.into_iter().enumerate() {
-            for (row, slope) in slopes.into_iter().enumerate() {
-                rows[row * length + length - N + k] = slope;
-            }
-        }
-        Some((miss, rows))
+        miss
     }
 }
 
@@ -121,6 +137,8 @@ fn weights(machine: &Machine, ring: &MachineRing, sizes: (f64, f64)) -> Vec<f64>
 }
 
 impl<const N: usize> Equations for MachineEquations<N> {
+    const SLOW: bool = true;
+
     fn weights(&self) -> &[f64] {
         &self.weights
     }
@@ -136,6 +154,11 @@ impl<const N: usize> Equations for MachineEquations<N> {
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let (machine, ring) = self.split(w)?;
         self.linearised(&MachineFrame::new(&machine), &ring, w)
+    }
+
+    fn residuals(&self, w: &[f64]) -> Option<Vec<f64>> {
+        let (machine, ring) = self.split(w)?;
+        self.misses(&MachineFrame::new(&machine), &ring, w)
     }
 }
 

@@ -62,8 +62,8 @@ pub(crate) fn matched(wanted: &[(f64, &RingEvent)], seen: &[(f64, RingEvent)]) -
 /// Phases that differ by less are one within the errors of a solution.
 const AT_ONCE: f64 = 1e-8;
 
-/// Over how many events a motion has what happens at one time in the signature: of equal parts each solution has its own error. `None`
-/// if it has something else.
+/// Over how many events a motion has what happens at one time in the signature: of equal parts each solution has its own error, so that
+/// either can be first. `None` if it has something else.
 fn parts(wanted: &RingEvent, seen: &[(f64, RingEvent)]) -> Option<usize> {
     let all = wanted.guards().count();
     let own = |event: &RingEvent| event.guards().all(|guard| wanted.has(guard));
@@ -71,7 +71,8 @@ fn parts(wanted: &RingEvent, seen: &[(f64, RingEvent)]) -> Option<usize> {
     let count = seen.iter().take(all).take_while(|(phase, event)| phase - begin < AT_ONCE && own(event)).count();
     let (_, last) = &seen[count.checked_sub(1)?];
     let told: usize = seen[..count].iter().map(|(_, event)| event.guards().count()).sum();
-    (count > 1 && told == all && last.after == wanted.after && last.back == wanted.back).then_some(count)
+    let alike = count > 1 || last.pushed == wanted.pushed && last.rounds == wanted.rounds;
+    (alike && told == all && last.after == wanted.after && last.back == wanted.back).then_some(count)
 }
 
 #[cfg(test)]

@@ -172,8 +172,6 @@ impl Problem for MachineProblem {
     type Known = Judged;
     type Equations = MachineEquations;
 
-    const SLOW: bool = true;
-
     fn equations(&self) -> &MachineEquations {
         &self.equations
     }

@@ -103,6 +103,8 @@ impl CurveEquations {
 const ALONG: f64 = 1e-4;
 
 impl Equations for CurveEquations {
+    const SLOW: bool = true;
+
     fn weights(&self) -> &[f64] {
         self.events.weights()
     }
@@ -115,5 +117,12 @@ impl Equations for CurveEquations {
         rows[last..last + w.len()].copy_from_slice(&self.gradient(&frame, w, &ring)?);
         miss.push(self.condition.value(&frame, &ring)?);
         Some((miss, rows))
+    }
+    fn residuals(&self, w: &[f64]) -> Option<Vec<f64>> {
+        let (machine, ring) = self.split(w)?;
+        let frame = MachineFrame::new(&machine);
+        let mut miss = self.events.misses(&frame, &ring, w)?;
+        miss.push(self.condition.value(&frame, &ring)?);
+        Some(miss)
     }
 }

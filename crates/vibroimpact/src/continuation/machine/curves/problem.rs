@@ -236,8 +236,6 @@ impl Problem for CurveProblem {
     type Known = Judged;
     type Equations = CurveEquations;
 
-    const SLOW: bool = true;
-
     fn equations(&self) -> &CurveEquations {
         &self.equations
     }
