@@ -60,6 +60,10 @@ const NEAR: f64 = 1e-5;
 const SHARE: f64 = 0.1;
 /// until one leaves an error below this.
 const ROUNDING: f64 = 1e-16;
+/// Where the last corrections did not become shorter by this factor, they are the rounding errors of a solution that is nearly singular;
+const STALLED: f64 = 0.3;
+/// it is refused where they are longer than this.
+const INEXACT: f64 = 3e-8;
 /// A correction longer than this would lead to another solution and is refused.
 const ASTRAY: f64 = 1.0;
 
@@ -98,6 +102,7 @@ pub(crate) fn corrected<E: Equations>(equations: &E, guess: &[f64], row: &[f64],
         (change, size)
     };
     let moved = |w: &mut [f64], change: &[f64]| w.iter_mut().zip(change).for_each(|(w, change)| *w += change);
+    let mut sizes = Vec::new();
     for count in 1..=MAX_CORRECTIONS {
         let (miss, mut rows) = equations.at(&w)?;
         // the last equation holds the distance along the tangent
@@ -112,6 +117,11 @@ pub(crate) fn corrected<E: Equations>(equations: &E, guess: &[f64], row: &[f64],
         if size <= SETTLED {
             return Some(Corrected { w, count, factors, off: size });
         }
+        sizes.push(size);
+        let last = sizes.last_chunk::<4>().filter(|_| E::SLOW);
+        if last.is_some_and(|[first, next @ ..]| next.iter().all(|size| *size > STALLED * first)) {
+            return (size <= INEXACT).then_some(Corrected { w, count, factors, off: size });
+        }
         let off = size;
         while E::SLOW && size <= NEAR {
             let (change, next) = correction(&w, equations.residuals(&w)?, &factors);
@@ -120,7 +130,7 @@ pub(crate) fn corrected<E: Equations>(equations: &E, guess: &[f64], row: &[f64],
                 break;
             }
             moved(&mut w, &change);
-            if share * next <= ROUNDING {
+            if share * next <= ROUNDING || next <= 1e3 * ROUNDING {
                 // all of them count as the one that they replace
                 return Some(Corrected { w, count: count + 1, factors, off });
             }
