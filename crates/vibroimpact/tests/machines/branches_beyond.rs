@@ -623,6 +623,80 @@ fn a_jump_is_where_its_cycles_begin() {
     }
 }
 
+/// Close to an impact without speed its joint holds right after it: between both events the number changes by 5e-8 only. The branch skipped
+/// them and went back along itself.
+#[test]
+fn a_hold_begins_beside_a_grazing_contact() {
+    let machine = |frequency: f64| {
+        let parts = MachineParts::new(["a"])
+            .with_mass(0, 1.0)
+            .with_link(&[1.0], 1.0, 0.1)
+            .with_frequency(frequency)
+            .with_force(0, 1, 1.258, 0.0)
+            .with_joint("floor", &[1.0], 0.334, 0.334, 0.0)
+            .with_rigid_stop("wall", &[1.0], 0.19, 0.8);
+        Machine::new(parts).unwrap()
+    };
+    let found = from(&machine(0.65), "frequency", ((0.65, 0.67), Direction::Up));
+    let [
+        (BranchEvent::Fold, _),
+        (BranchEvent::Holding { begins: true, .. }, begins),
+        (BranchEvent::Grazing { appears: false, turns: true, .. }, grazing),
+        (BranchEvent::EndOfRange, 0.67),
+    ] = found[..]
+    else {
+        panic!("{found:?}")
+    };
+    assert!(begins - grazing > 4e-8 && begins - grazing < 6e-8, "{found:?}");
+}
+
+/// At a corner where the number turns the cycle before the corner before lies close by: the branch took it and went back along itself, to a
+/// hold that ends with the force of a joint whose static limit exceeds its sliding force, which it passed as if the motion were continuous.
+/// Now the way back has the same events.
+#[test]
+fn a_corner_at_which_the_number_turns() {
+    let law = StopLaw::Compliant { stiffness: 10.0, damping: 0.2, preload: 0.0, opening: Opening::Force };
+    let machine = |frequency: f64| {
+        let parts = MachineParts::new(["a", "b"])
+            .with_mass(0, 1.0)
+            .with_mass(1, 0.571)
+            .with_link(&[1.0, 0.0], 1.0, 0.02)
+            .with_link(&[1.0, -1.0], 0.91, 0.079)
+            .with_frequency(frequency)
+            .with_force(0, 1, 1.013, 0.0)
+            .with_joint("between", &[1.0, -1.0], 0.353, 0.3625, 0.0)
+            .with_stop("wall", &[1.0, 0.0], 0.403, law);
+        Machine::new(parts).unwrap()
+    };
+    let up = from(&machine(0.47), "frequency", ((0.47, 0.48), Direction::Up));
+    let names: Vec<_> = up.iter().map(|(event, _)| event.name()).collect();
+    let expected = ["corner", "holding ends", "jump", "corner", "corner", "fold", "grazing", "end of range"];
+    assert_eq!(names, expected, "{up:?}");
+    let mut down = from(&machine(0.48), "frequency", ((0.47, 0.48), Direction::Down));
+    down.truncate(4);
+    down.reverse();
+    for ((event, at), (other, there)) in up[3..7].iter().zip(&down) {
+        assert_eq!(event.name(), other.name(), "{up:?} {down:?}");
+        assert!((at - there).abs() < 1e-9, "{event:?} at {at}, {other:?} at {there}");
+    }
+}
+
+/// A hold ends as in the test above, and the next cycle with the events beyond is far from it: the branch ends there or jumps.
+#[test]
+fn a_hold_that_ends_with_a_static_limit_is_not_continuous() {
+    let law = StopLaw::Compliant { stiffness: 10.0, damping: 0.2, preload: 0.0, opening: Opening::Force };
+    let parts = MachineParts::new(["a"])
+        .with_mass(0, 1.0)
+        .with_link(&[1.0], 1.0, 0.2)
+        .with_frequency(0.562)
+        .with_force(0, 1, 1.252, 0.0)
+        .with_joint("belt", &[1.0], 0.405, 0.4439, 0.683)
+        .with_stop("wall", &[1.0], 0.886, law);
+    let found = from(&Machine::new(parts).unwrap(), "frequency", ((0.562, 0.58), Direction::Up));
+    assert!(matches!(found[0].0, BranchEvent::Holding { begins: false, .. }), "{found:?}");
+    assert!(matches!(found[1].0, BranchEvent::Jump | BranchEvent::Discontinuity), "{found:?}");
+}
+
 /// The velocity of a body that a belt holds for an instant has the amplitude of the belt: force over damping at resonance. Beyond, there are no
 /// events. The branch ended with a discontinuity.
 #[test]

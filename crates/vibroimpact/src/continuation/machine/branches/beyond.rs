@@ -10,7 +10,7 @@ use super::equations::MachineEquations;
 use super::explained::{closings, same_events};
 use super::problem::{MachineProblem, MachineSolution};
 use super::summed::same_in_turn;
-use super::through::{forward, with_ring};
+use super::through::{first_step, forward, with_ring};
 use crate::continuation::branches::BranchOptions;
 use crate::continuation::trace::equations::{Equations, correct, tangent, unit};
 use crate::continuation::trace::tracer::{Problem as _, Tracer, last};
@@ -27,24 +27,41 @@ const FAR_BESIDE: f64 = 1e-3;
 const APART: usize = 3;
 /// The same where a rest on a stop begins or ends: the numbers at which a chatter gets one more impact accumulate there.
 const BESIDE_REST: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-2];
+/// The same where a joint begins or ceases to hold: just before an impact appears or disappears, this is close to it.
+const BESIDE_HOLD: [f64; 6] = [1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
 
 /// The cycle a little beyond, from the last one, and whether it continues the motion. Beyond a corner its events may be the same in
-/// cyclic order.
+/// cyclic order. One that is `passed` before is left out.
 pub(super) fn replayed(
     tracer: &Tracer<MachineProblem>,
     at: &MachineSolution,
     (options, found): (&BranchOptions, &Difference),
+    passed: impl Fn(&Tracer<MachineProblem>) -> bool,
 ) -> Option<(Tracer<MachineProblem>, bool)> {
     let (ring, forward) = (&tracer.problem.equations.ring, forward(at));
-    let beside = if matches!(found, Difference::Rest { joint: false, .. }) { BESIDE_REST } else { BESIDE };
-    let motion = LastMotion::of(tracer, at)?;
+    let beside: &[f64] = match found {
+        Difference::Rest { joint: false, .. } => &BESIDE_REST,
+        Difference::Rest { .. } => &BESIDE_HOLD,
+        _ => &BESIDE,
+    };
+    let mut motion = LastMotion::of(tracer, at)?;
+    if let Difference::Rest { place, joint: true, .. } = *found {
+        let machine = tracer.problem.equations.family.at(motion.number)?;
+        let joint = &machine.joints()[place - machine.stops().len()];
+        // the force of a joint that holds no more falls at once from the static limit: a motion that changes little is another one
+        if joint.limit > joint.sliding {
+            (motion.alike, motion.bend) = (NO_STEP, 0.0);
+        }
+    }
     let other = |next: &MachineRing| !same_in_turn(&next.events, &ring.events);
     if let Difference::Corner { first, second } = *found {
         // the order of two events, or the way in which one contact ends, does not change how many contacts there are; the number can
         // turn back. Close to a grazing contact a cycle without it is near, which this one does not become
         let as_many = |next: &MachineRing| closings(next) == closings(ring);
-        let swapped = beside.into_iter().flat_map(|by| [forward * by, -forward * by]).filter_map(|by| {
-            motion.beside(tracer, (by, options), |next| (by * forward > 0.0 || other(next)) && as_many(next))
+        let swapped = beside.iter().flat_map(|by| [forward * by, -forward * by]).filter_map(|by| {
+            let found =
+                motion.beside(tracer, (by, options), |next| (by * forward > 0.0 || other(next)) && as_many(next));
+            found.filter(|(next, _)| !passed(next))
         });
         if let Some(next) = swapped.into_iter().find(|(_, continues)| *continues) {
             return Some(next);
@@ -53,11 +70,11 @@ pub(super) fn replayed(
             return None;
         }
     }
-    let steps = [forward, -forward].into_iter().flat_map(|up| beside.map(|by| up * by));
+    let steps = [forward, -forward].into_iter().flat_map(|up| beside.iter().map(move |by| up * by));
     // where a joint begins or ceases to hold no impact appears, but close by one can, which turns the joint back
     let joint = matches!(found, Difference::Rest { joint: true, .. });
     let found = steps.into_iter().filter_map(|by| {
-        let (next, continues) = motion.beside(tracer, (by, options), other)?;
+        let (next, continues) = motion.beside(tracer, (by, options), other).filter(|(next, _)| !passed(next))?;
         let becomes = !joint || by.abs() < FAR_BESIDE || closings(&next.problem.equations.ring) == closings(ring);
         Some((next, continues && becomes))
     });
@@ -131,7 +148,11 @@ pub(super) fn across(
         let back = along.iter().map(|t| -t).collect();
         let onward = if last(&along) * forward(at) < 0.0 { [back, along] } else { [along, back] };
         let ways = onward.into_iter().filter_map(|along| {
-            let begun = traced(problem.clone(), w.clone(), along, *options)?;
+            let begun = traced(problem.clone(), w.clone(), along.clone(), *options)?;
+            // right at the change the cycle can be admissible: one way leads back through it
+            if begun.here.known.physical() {
+                return first_step(&problem, &w, &along, options);
+            }
             admissible(begun)
         });
         let far = |next: &Tracer<MachineProblem>| (last(&next.here.w) - motion.number).abs();
@@ -185,14 +206,16 @@ fn admissible(mut tracer: Tracer<MachineProblem>) -> Option<Tracer<MachineProble
     None
 }
 
-/// A cycle beside a solution that differs, in its size, by less continues it.
+/// A cycle beside a solution that differs, in its size, by less continues it,
 const NO_JUMP: f64 = 5e-4;
+/// or by less than this where a force is not continuous.
+const NO_STEP: f64 = 1e-7;
 /// Another one does if the difference falls to less than the last part at each of some numbers that are nearer by this factor.
 const NEARER: f64 = 0.0625;
 const NEARER_TIMES: u32 = 6;
 const LIMIT: f64 = 0.6;
-/// Where there is none nearer it does if the difference is less than this times the root of the distance of their numbers in the
-/// scale of the number: beyond a grazing contact a cycle changes as fast as the root.
+/// Where there is none nearer it does if the difference is less than this times the root of the distance of their numbers: beyond a
+/// grazing contact a cycle changes as fast as the root.
 const BEND: f64 = 0.5;
 
 /// How far beyond a solution its cycle with a complete chatter is looked for, and by how much it may differ there.
@@ -220,6 +243,11 @@ pub(super) struct LastMotion {
     pub(super) begin: Place,
     periods: u32,
     pub(super) period: f64,
+    /// A cycle beside it that differs, in its size, by less continues it,
+    alike: f64,
+    /// and where there is none nearer one that differs by less than this times the root of the distance of their numbers, in the scale
+    /// of the number.
+    bend: f64,
 }
 
 impl LastMotion {
@@ -227,7 +255,14 @@ impl LastMotion {
         let (machine, ring) = tracer.problem.equations.split(&at.w)?;
         let frame = MachineFrame::new(&machine);
         let begin = ring.middle(&frame)?.1;
-        Some(Self { number: last(&at.w), begin, periods: ring.periods, period: ring.period(&frame) })
+        Some(Self {
+            number: last(&at.w),
+            begin,
+            periods: ring.periods,
+            period: ring.period(&frame),
+            alike: NO_JUMP,
+            bend: BEND,
+        })
     }
 
     /// The cycle close to it at a number that differs by `by` in its scale, with the machine there and its events, and how far it is
@@ -252,10 +287,10 @@ impl LastMotion {
         wanted: &impl Fn(&MachineRing) -> bool,
     ) -> bool {
         for _ in 0..NEARER_TIMES {
-            if apart < NO_JUMP {
+            if apart < self.alike {
                 return true;
             }
-            let bend = BEND * by.abs().sqrt();
+            let bend = self.bend * by.abs().sqrt();
             by *= NEARER;
             match self.cycle(tracer, by).filter(|(_, next, ..)| wanted(next)) {
                 None => return apart < bend,

@@ -36,6 +36,8 @@ pub(super) struct EventPath {
     options: BranchOptions,
     /// The changes of the events so far. At the second one of a kind the branch is closed.
     passed: Vec<Passed>,
+    /// Whether a jump led to where the branch is now: it can lead to where it was before.
+    jumped: bool,
 }
 
 pub(super) type EventBranch = Driver<EventPath>;
@@ -85,7 +87,9 @@ impl Path for EventPath {
         if branch.rests(&at) {
             return;
         }
-        if let Some((next, continues)) = replayed(&branch.tracer, &at, (&branch.path.options, &found)) {
+        if let Some((next, continues)) =
+            replayed(&branch.tracer, &at, (&branch.path.options, &found), |next| branch.undoes(&at, next))
+        {
             return branch.go_on(&at, found.event(false), (next, landing(continues)));
         }
         match across(&branch.tracer, &at, &branch.path.options) {
@@ -120,7 +124,8 @@ impl UnreducedBranch {
             let up = if direction == Direction::Up { 1.0 } else { -1.0 };
             let tracer = begun(problem, &w, value, up, options)?;
             let next = apart(&tracer, up, &options);
-            let mut driver = Driver::new(EventPath { options, passed: Vec::new() }, tracer, options.points)?;
+            let mut driver =
+                Driver::new(EventPath { options, passed: Vec::new(), jumped: false }, tracer, options.points)?;
             if let Some(next) = next {
                 driver.exchange(next);
             }
@@ -258,7 +263,8 @@ impl EventBranch {
         let jumps =
             || self.ends(at, self.at_one_time(at, found).unwrap_or(*found).event(false)) == BranchEvent::Discontinuity;
         let own = |(_, continues): &(_, bool)| *continues || !jumps();
-        let beyond = || replayed(&self.tracer, at, (&self.path.options, found)).filter(own);
+        let back = |next: &Tracer<MachineProblem>| self.undoes(at, next);
+        let beyond = || replayed(&self.tracer, at, (&self.path.options, found), back).filter(own);
         let Some((next, continues)) = next.map(|next| (next, true)).or_else(beyond) else {
             let next = across(&self.tracer, at, &self.path.options);
             return self.jump(at, found, next);
@@ -351,11 +357,22 @@ impl EventBranch {
         self.path.passed.push(now);
         self.add(at, Some(event));
         if self.goes_back(&next, number, event) {
-            return self.end(at, self.ends(at, event));
+            return self.end(at, if self.path.jumped { BranchEvent::Closed } else { self.ends(at, event) });
         }
+        self.path.jumped |= landing.is_some();
         let next = if landing.is_some() { from_first(next, number, &self.path.options) } else { next };
         self.exchange(next);
         self.add(&self.tracer.here.clone(), landing);
+    }
+
+    /// Whether another tracer is on the way that led here, before the last event.
+    fn undoes(&self, at: &MachineSolution, next: &Tracer<MachineProblem>) -> bool {
+        let (number, there) = (last(&at.w), last(&next.here.w));
+        self.path.passed.last().is_some_and(|passed| {
+            let between = (passed.number - there) * (number - passed.number) > 0.0;
+            let back = passed.rises != (last(&next.here.tangent) > 0.0);
+            between && back && same_events(&passed.ring, &next.problem.equations.ring)
+        })
     }
 
     /// Whether another tracer goes back along what has been followed: with events that were left at the same number, in the other

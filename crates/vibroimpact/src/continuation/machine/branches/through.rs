@@ -71,7 +71,7 @@ pub(super) fn with_ring(
 const AHEAD: [f64; 2] = [1e-6, 1e-5];
 
 /// The solution a first step away in a direction, if it is admissible.
-fn first_step(
+pub(super) fn first_step(
     problem: &MachineProblem,
     w: &[f64],
     along: &[f64],
