@@ -107,7 +107,12 @@ impl EventBranch {
         let w = CLOSE.into_iter().find_map(|by| self.tracer.between(step, s + by * step.length))?;
         // where an event is at the least gap, rounding decides whether a flight has that gap, and its function changes its sign by a jump
         let is_zero = |j: usize| self.tracer.problem.test(j, &w, || None).is_none_or(|value| value.abs() < ZERO);
-        if !first.is_none_or(is_zero) {
+        let beside = |j: usize, by: f64| {
+            let w = self.tracer.between(step, s + by * step.length)?;
+            self.tracer.problem.test(j, &w, || None)
+        };
+        let jumps = |j: usize| [-CLOSE_BY, CLOSE_BY].iter().any(|by| beside(j, *by).is_some_and(f64::is_infinite));
+        if !first.is_none_or(|j| is_zero(j) && !jumps(j)) {
             return None;
         }
         // rounding decides which events the motion has here, and the number can turn: a solution just before stands for it
@@ -315,8 +320,9 @@ const APART: f64 = 1e-2;
 const CLOSE: [f64; 5] = [0.0, 1e-12, -1e-12, 1e-10, -1e-10];
 /// Halvings of a step to the distances from such a zero between which the least one is that rounding allows.
 const HALVINGS: [i32; 2] = [6, 48];
-/// A function that has to be positive is zero below this.
+/// A function that has to be positive is zero below this, unless it jumps to infinity so close by, in parts of a step.
 const ZERO: f64 = 1e-7;
+const CLOSE_BY: f64 = 1e-8;
 /// The distance, in parts of a step, of a solution just beyond the last admissible one.
 const JUST: f64 = 1e-4;
 /// The resolution, in parts of a step, to which it is known where another curve crosses.
