@@ -54,6 +54,10 @@ pub(crate) const TORUS: usize = 3;
 /// A motion with the same events that misses its beginning by more than this is another one.
 pub(crate) const CLOSED: f64 = 1e-5;
 
+/// The most steps of a motion that is compared with a signature: so many, and so many times the events of the signature.
+const MANY: usize = 1000;
+const MORE: usize = 20;
+
 /// The determinant of a matrix with `shift` added on its diagonal.
 fn shifted_determinant(matrix: &Matrix, shift: f64) -> f64 {
     let mut other = matrix.clone();
@@ -150,7 +154,8 @@ pub(crate) fn judge(
     let multipliers = neighbours.multipliers.clone();
     let flown = || {
         let (from, begin) = ring.middle(frame)?;
-        let lap = MachineLap::replay(frame, &begin, ring.period(frame))?;
+        // a motion with many more events has others
+        let lap = MachineLap::replay_in(frame, &begin, ring.period(frame), MANY + MORE * ring.len())?;
         Some((from, begin, lap))
     };
     let Some((from, begin, lap)) = flown() else {
