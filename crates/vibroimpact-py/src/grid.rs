@@ -7,7 +7,7 @@ use crate::plan::{points, read, text};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use std::collections::BTreeSet;
-use vibroimpact_report::json::basin::Measures;
+use vibroimpact_report::task::basin::Measures;
 use vibroimpact_study::basin::measures;
 use vibroimpact_study::study::{Cells, Sheet, StudyTable, in_memory, label_of, meaning_of};
 use vibroimpact_study::{Column, Field, Study};

@@ -1,6 +1,7 @@
 //! The contact of a mass with a spring and a damper: its restitution, times, depths and forces, as JSON, table and figure.
 
 use crate::number::{Number, short};
+use crate::text::words::aligned;
 use crate::{PROGRAM, ReportError, Table};
 use core::f64::consts::TAU;
 use schemars::JsonSchema;
@@ -209,6 +210,32 @@ impl ContactAnswer {
             format!("{},{numbers},{time},{last}", of.opening)
         };
         Table::new(HEADER.to_owned(), self.contacts.iter().map(row))
+    }
+
+    /// The text: a column for each way to open.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let all = &self.contacts;
+        let line = |name: &str, value: &dyn Fn(&ContactObject) -> String| {
+            let mut row = vec![name.to_owned()];
+            row.extend(all.iter().map(value));
+            row
+        };
+        let opens = all.iter().map(|of| format!("by {}", of.opening));
+        let heads: Vec<String> = core::iter::once("<opens".to_owned()).chain(opens).collect();
+        let rows = [
+            line("restitution", &|of| short(of.restitution)),
+            line("damping ratio", &|of| short(of.damping_ratio)),
+            line("damping (N s/m)", &|of| short(of.damping)),
+            line("mass (kg)", &|of| short(of.mass)),
+            line("stiffness (N/m)", &|of| short(of.stiffness)),
+            line("frequency (Hz)", &|of| short(of.frequency)),
+            line("contact time (s)", &|of| of.contact_time.map_or_else(|| "never opens".to_owned(), short)),
+            line("largest depth (m)", &|of| short(of.depth_max)),
+            line("largest force (N)", &|of| short(of.force_max)),
+            line("depth at opening (m)", &|of| short(of.residual_depth)),
+        ];
+        format!("approach at {} m/s\n{}", short(self.speed), aligned(&heads, &rows))
     }
 
     /// The figure: the force over the depth from closing to opening.

@@ -1,4 +1,4 @@
-//! Reports of results: as JSON, as a table and as a figure. The command and the local server use the same functions, so
+//! Reports of results: as JSON, as a table, as a figure and as text. The command and the local server use the same functions, so
 //! their output is equal to the byte.
 //!
 //! All functions map values to values. They use no files, no terminal and no threads of their own.
@@ -11,6 +11,7 @@
 //! | the JSON objects of the commands, one for each, whatever the system | [`json`] |
 //! | a response of any system, with its names and units | [`response`] |
 //! | the tables | [`Table`], [`table`] |
+//! | the texts | [`text`] |
 //! | the figures | [`figure`] |
 //! | the views of a settled motion: waveform, phase portrait, multipliers, sections; a diagram with branches over it | [`scene`] |
 //! | the same question as a command line and in Python | [`question`] |
@@ -26,9 +27,10 @@ pub mod figure;
 pub mod json;
 pub mod number;
 pub mod question;
-pub mod response;
 pub mod scene;
 pub mod table;
+pub mod task;
+mod text;
 mod units;
 mod varied;
 

@@ -3,11 +3,9 @@
 use crate::args::{OutputArgs, UnitKind, Words, word};
 use crate::commands::outputs::Outputs;
 use crate::failure::Failure;
-use crate::report::words::table;
 use crate::session::Session;
 use clap::Args;
-use vibroimpact_report::number::short;
-use vibroimpact_report::{ContactAnswer, ContactObject, ContactQuestion, Opens};
+use vibroimpact_report::{ContactQuestion, Opens};
 
 /// Convert between restitution, stiffness and damping of a contact
 ///
@@ -96,30 +94,6 @@ pub(super) fn run(args: &Contact, session: &Session) -> Result<(), Failure> {
     } else if silent {
         Ok(())
     } else {
-        session.print(&text(&answer))
+        session.print(&answer.text())
     }
-}
-
-fn text(answer: &ContactAnswer) -> String {
-    let all = &answer.contacts;
-    let line = |name: &str, value: &dyn Fn(&ContactObject) -> String| {
-        let mut row = vec![name.to_owned()];
-        row.extend(all.iter().map(value));
-        row
-    };
-    let opens = all.iter().map(|of| format!("by {}", of.opening));
-    let heads: Vec<String> = core::iter::once("<opens".to_owned()).chain(opens).collect();
-    let rows = [
-        line("restitution", &|of| short(of.restitution)),
-        line("damping ratio", &|of| short(of.damping_ratio)),
-        line("damping (N s/m)", &|of| short(of.damping)),
-        line("mass (kg)", &|of| short(of.mass)),
-        line("stiffness (N/m)", &|of| short(of.stiffness)),
-        line("frequency (Hz)", &|of| short(of.frequency)),
-        line("contact time (s)", &|of| of.contact_time.map_or_else(|| "never opens".to_owned(), short)),
-        line("largest depth (m)", &|of| short(of.depth_max)),
-        line("largest force (N)", &|of| short(of.force_max)),
-        line("depth at opening (m)", &|of| short(of.residual_depth)),
-    ];
-    format!("approach at {} m/s\n{}", short(answer.speed), table(&heads, &rows))
 }

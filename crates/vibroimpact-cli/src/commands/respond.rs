@@ -76,7 +76,7 @@ pub(super) fn tell(answer: &Answer, (outputs, shown): (Outputs, Shown), session:
     if json {
         session.print_json(answer)?;
     } else if !(table || (grid && files)) {
-        session.print(&report::text(answer)?)?;
+        session.print(&answer.text()?)?;
         for hint in report::hints(answer) {
             session.note(&format!("hint: {hint}"));
         }

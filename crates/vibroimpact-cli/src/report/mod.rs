@@ -1,45 +1,17 @@
-//! Answers as text. JSON, tables and figures are made by `vibroimpact-report`.
+//! Texts about stores and machines, and hints for the next command. Answers are told by `vibroimpact-report`.
 
-mod attractors;
-mod basin;
-mod branch;
-mod certainty;
-mod curve;
-mod diagram;
-mod edge;
-mod leading;
-mod lyapunov;
 pub(crate) mod machine;
-mod map;
-mod margins;
-mod motion;
-mod orbit;
-mod region;
 mod remarks;
-mod response;
-mod settle;
-mod simulate;
 pub(crate) mod status;
 pub(crate) mod stored;
 pub(crate) mod tallies;
 mod undecided;
-pub(crate) mod words;
 
-use crate::failure::Failure;
-use motion::Teller;
 use vibroimpact::events::End;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{Undecided, UndecidedCause, Verdict};
-use vibroimpact_report::{Answer, AnswerOf, Varied};
-use vibroimpact_study::{Name, Results, SEARCH_LIMIT, Task};
-
-/// The text that a command prints, unless JSON or a table on stdout was requested.
-pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
-    match answer {
-        Answer::Oscillator(answer) => text_of(answer),
-        Answer::Machine(answer) => text_of(answer),
-    }
-}
+use vibroimpact_report::Answer;
+use vibroimpact_study::{Results, SEARCH_LIMIT};
 
 /// Whether the motion is not known to its end, because a search for the next event used all its steps.
 pub(crate) fn ended_by_search(answer: &Answer) -> bool {
@@ -57,38 +29,6 @@ pub(crate) fn ended_by_search(answer: &Answer) -> bool {
             _ => false,
         },
     }
-}
-
-fn text_of<D: Teller>(of: &AnswerOf<D>) -> Result<String, Failure> {
-    let (units, machine) = (&of.units, D::machine(of));
-    let text = match &of.results {
-        Results::Simulate(found) => D::simulated(of, found),
-        Results::Settle(found) => settle::text(of, found),
-        Results::Attractors(found) => attractors::text(of, found),
-        Results::Orbit(found) => orbit::text(of, found),
-        Results::Basin(found) => basin::text(of, found),
-        Results::Map(found) => {
-            // points that are no grid have one start each
-            let starts = if let Task::Map(task) = &of.plan.task { task.starts } else { 1 };
-            let seen = if machine.is_some() { map::seen(found) } else { String::new() };
-            map::text(found, starts, D::two_stops(of)) + &seen
-        }
-        Results::Diagram(found) => diagram::text(found, units),
-        Results::Lyapunov(found, _) => lyapunov::text(of, found),
-        Results::Branch(found) => branch::text(&of.branches_in_words(found)?, machine, (&of.cut()?, units)),
-        Results::Curve(found) => curve::text(&of.curve(found)?, (&of.curve_plan()?, units)),
-        Results::Region(found) => {
-            let plan = of.region_plan()?;
-            region::text(found, &plan, (plan.neutral(&of.written), D::in_closed_form(&plan)), units)
-        }
-        Results::Response(found) => {
-            let vary = if let Task::Response(task) = &of.plan.task { task.vary.text() } else { "" };
-            response::text(&D::response(of, found)?, &D::Name::of(vary)?.words(units))
-        }
-        Results::Margins(found) => margins::text(of, found),
-        Results::Edge(found) => edge::text(of, found),
-    };
-    Ok(D::heading(of) + &text)
 }
 
 /// Hints for the next command.

@@ -2,22 +2,20 @@
 
 use crate::failure::Failure;
 use crate::hints;
-use crate::report::leading::leading;
 use crate::report::remarks::Remarks;
 use crate::report::tallies::computed;
-use crate::report::words::table as columns_of_text;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use vibroimpact::QuantityKind;
 use vibroimpact::math::sort_by;
-use vibroimpact_report::json::map::{LabelCount, of_points};
-use vibroimpact_report::number::{Number, percent};
-use vibroimpact_report::table::diagram;
+use vibroimpact_report::number::Number;
+use vibroimpact_report::task::diagram;
+use vibroimpact_report::task::map::{LabelCount, label_table, of_points};
 use vibroimpact_report::{PROGRAM, Told, Units, Varied};
 use vibroimpact_store::{Store, StoreError};
 use vibroimpact_study::diagram::ShowText;
-use vibroimpact_study::study::{Along, NO_MOTION, NOT_COMPUTED, REFUSED, UNDECIDED, label_of};
+use vibroimpact_study::study::{Along, NO_MOTION, NOT_COMPUTED, REFUSED, label_of};
 use vibroimpact_study::{
     Axis, BasinPlan, Block, Column, DiagramPlan, Dimension, Field, Plan, PlanError, PointsPlan, Quantity, System, Task,
     Values, Variable, typed_axes,
@@ -69,15 +67,6 @@ pub(crate) fn points(store: &Store) -> Result<Option<impl Serialize>, Failure> {
     });
     let values = values.collect::<Result<Vec<_>, Failure>>()?;
     Ok(Some(of_points((plan, system), &task, points, &labels, &values)?))
-}
-
-/// The text of a table of labels: the most frequent ones, and the others together.
-pub(crate) fn label_table(labels: &[LabelCount]) -> String {
-    let heads = ["<label", "points", "share of starts"].map(str::to_owned);
-    let row = |count: &&LabelCount| vec![count.label.clone(), count.points.to_string(), percent(count.share)];
-    let undecided = label_of(UNDECIDED).unwrap_or_default();
-    let labels = leading(labels.iter().collect(), |count| count.share, |count| count.label == undecided);
-    columns_of_text(&heads, &labels.rows(row, "label", (0, 2, heads.len())))
 }
 
 /// The labels of all complete tiles, the most frequent first.

@@ -8,14 +8,14 @@ pub use told::Told;
 pub(crate) use told::{BasinOf, BranchesOf, CurveOf};
 
 use crate::figure::branch::Picture;
-use crate::figure::coloured::Coloured;
+use crate::figure::coloured::{self, Coloured};
 use crate::figure::overlay::Overlay;
-use crate::figure::{self, coloured, tracks};
+use crate::figure::{self, tracks};
 use crate::json::branch::BranchAnswer;
-use crate::json::curve::CurveAnswer;
-use crate::json::orbit::OrbitAnswer;
 use crate::scene::View;
-use crate::{AnswerError, ReportError, Table, Units, table};
+use crate::task::curve::CurveAnswer;
+use crate::task::orbit::OrbitAnswer;
+use crate::{AnswerError, ReportError, Table, Units, table, task, text};
 use serde::Serialize;
 use vibroimpact::math::Multiplier;
 use vibroimpact::verdict::{CountedMotion, PaperRule, PaperVerdict, Verdict};
@@ -158,6 +158,17 @@ impl Answer {
         }
     }
 
+    /// The text that the command prints without `--json`.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a number that the system does not have.
+    pub fn text(&self) -> Result<String, PlanError> {
+        match self {
+            Self::Oscillator(answer) => text::text_of(answer),
+            Self::Machine(answer) => text::text_of(answer),
+        }
+    }
+
     /// The figure that the command draws with `--plot`. For a settled motion it shows the motion after the transient;
     /// for exponents it shows both sections, if points of them were requested. `None` for a view that the answer does not
     /// have. The orbit diagram behind a branch is computed here.
@@ -223,7 +234,7 @@ impl<D: Told> AnswerOf<D> {
             Results::Lyapunov(..) => return Ok(None),
             Results::Orbit(found) => {
                 let [speed, _] = D::speeds(self);
-                figure::orbits::figure(&self.orbits(found), speed, title(&[]))
+                task::orbit::figure(&self.orbits(found), speed, title(&[]))
             }
             Results::Basin(found) => figure::basin::figure(found, units, title(&[]))?,
             Results::Map(found) if found.axes.is_empty() => {
@@ -271,7 +282,7 @@ impl<D: Told> AnswerOf<D> {
                     |found: &CountedMotion<D::System>| (found.verdict.label().into_owned(), census.share(found));
                 figure::bars::shares(&census.by_share().into_iter().map(share).collect::<Vec<_>>(), title(&[]))
             }
-            Results::Edge(found) => figure::edge::figure(self, found, &title(&[])),
+            Results::Edge(found) => task::edge::figure(self, found, &title(&[])),
             Results::Margins(found) => {
                 let varied: Vec<&str> = found.parameters.iter().map(|of| of.scope.parameter.text()).collect();
                 let title = [title(&varied), figure::label(&found.motion.label())].join(": ");
@@ -304,52 +315,34 @@ impl<D: Told> AnswerOf<D> {
     }
 
     /// The line of its branches.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a number that the system does not have, and for another task.
-    pub fn cut(&self) -> Result<Cut<D::Name>, PlanError> {
+    pub(crate) fn cut(&self) -> Result<Cut<D::Name>, PlanError> {
         let Task::Branch(plan) = &self.plan.task else { return Err(OTHER) };
         plan.typed::<D::Name>()?.cut(&self.written)
     }
 
     /// The plan of its curve.
-    ///
-    /// # Errors
-    /// As [`Self::cut`].
-    pub fn curve_plan(&self) -> Result<CurvePlan<D::Name>, PlanError> {
+    pub(crate) fn curve_plan(&self) -> Result<CurvePlan<D::Name>, PlanError> {
         if let Task::Curve(plan) = &self.plan.task { plan.typed() } else { Err(OTHER) }
     }
 
     /// The plan of its regions.
-    ///
-    /// # Errors
-    /// As [`Self::cut`].
-    pub fn region_plan(&self) -> Result<RegionPlan<D::Name>, PlanError> {
+    pub(crate) fn region_plan(&self) -> Result<RegionPlan<D::Name>, PlanError> {
         if let Task::Region(plan) = &self.plan.task { plan.typed() } else { Err(OTHER) }
     }
 
     /// The answer to `vibro branch`.
-    ///
-    /// # Errors
-    /// As [`Self::cut`].
-    pub fn branches<'a>(&'a self, found: &'a BranchesOf<D>) -> Result<BranchAnswer<'a>, PlanError> {
+    pub(crate) fn branches<'a>(&'a self, found: &'a BranchesOf<D>) -> Result<BranchAnswer<'a>, PlanError> {
         let cut = self.cut()?;
         Ok(BranchAnswer::new(self, found, &cut, D::shown_on_branches(self, found, &cut).as_ref()))
     }
 
     /// The same without quantities of its points, for the text.
-    ///
-    /// # Errors
-    /// As [`Self::cut`].
-    pub fn branches_in_words<'a>(&'a self, found: &'a BranchesOf<D>) -> Result<BranchAnswer<'a>, PlanError> {
+    pub(crate) fn branches_in_words<'a>(&'a self, found: &'a BranchesOf<D>) -> Result<BranchAnswer<'a>, PlanError> {
         Ok(BranchAnswer::new(self, found, &self.cut()?, None))
     }
 
     /// The answer to `vibro curve`.
-    ///
-    /// # Errors
-    /// As [`Self::cut`].
-    pub fn curve<'a>(&'a self, found: &'a CurveOf<D>) -> Result<CurveAnswer<'a>, PlanError> {
+    pub(crate) fn curve<'a>(&'a self, found: &'a CurveOf<D>) -> Result<CurveAnswer<'a>, PlanError> {
         Ok(CurveAnswer::new(self, found, &self.curve_plan()?))
     }
 
@@ -371,21 +364,21 @@ impl<D: Told> AnswerOf<D> {
                 table::multipliers(self.multipliers(&found.verdict)?)
             }
             Results::Settle(found) => D::settled_table(self, found, view)?,
-            Results::Attractors(found) => table::attractors::table(self, found),
-            Results::Orbit(found) => table::orbits::orbits(self.orbits(found), machine, units),
-            Results::Basin(found) => table::basin::table(self, found)?,
-            Results::Map(found) => table::map::table(found, &self.system, (*units, machine.is_some()))?,
-            Results::Diagram(found) => table::diagram::table(found, &self.system, *units)?,
+            Results::Attractors(found) => task::attractors::table(self, found),
+            Results::Orbit(found) => task::orbit::table(self.orbits(found), machine, units),
+            Results::Basin(found) => task::basin::table(self, found)?,
+            Results::Map(found) => task::map::table(found, &self.system, (*units, machine.is_some()))?,
+            Results::Diagram(found) => task::diagram::table(found, &self.system, *units)?,
             Results::Lyapunov(_, Some(points)) => {
-                table::section::table(points, &self.system, &D::names(self), self.units)
+                task::lyapunov::table(points, &self.system, &D::names(self), self.units)
             }
             Results::Lyapunov(..) => return Ok(None),
-            Results::Branch(found) => table::orbits::branches(self.branches(found)?, machine, (&self.cut()?, units)),
-            Results::Curve(found) => table::orbits::curve(self.curve(found)?, machine, (&self.curve_plan()?, units)),
-            Results::Region(found) => table::region::table(found, &self.region_plan()?, units),
-            Results::Response(found) => table::response::table(D::response(self, found)?),
-            Results::Edge(found) => table::edge::table(self, found),
-            Results::Margins(found) => table::margins::table(found, &self.system, *units),
+            Results::Branch(found) => table::cycles::branches(self.branches(found)?, machine, (&self.cut()?, units)),
+            Results::Curve(found) => task::curve::table(self.curve(found)?, machine, (&self.curve_plan()?, units)),
+            Results::Region(found) => task::region::table(found, &self.region_plan()?, units),
+            Results::Response(found) => task::response::table(D::response(self, found)?),
+            Results::Edge(found) => task::edge::table(self, found),
+            Results::Margins(found) => task::margins::table(found, &self.system, *units),
         }))
     }
 }

@@ -2,20 +2,20 @@
 
 use super::AnswerOf;
 use super::told::Told;
-use crate::json::attractors::Area;
-use crate::json::basin::MeasureFields;
 use crate::json::branch::{self, Along, EventOf};
-use crate::json::curve;
 use crate::json::event::StateObject;
-use crate::json::lyapunov::LyapunovAnswer;
 use crate::json::motion::MotionObject;
-use crate::json::orbit::OrbitObject;
-use crate::json::settle::SettleAnswer;
-use crate::json::simulate::Events;
 use crate::json::system::SystemObject;
-use crate::response::ResponseView;
 use crate::scene::{self, SECTION_POINTS, View, phase_portrait};
-use crate::{AnswerError, Asked, ReportError, ShownValue as _, Table, Units, figure, table};
+use crate::task::attractors::Area;
+use crate::task::basin::MeasureFields;
+use crate::task::curve;
+use crate::task::lyapunov::LyapunovAnswer;
+use crate::task::orbit::OrbitObject;
+use crate::task::response::ResponseView;
+use crate::task::settle::SettleAnswer;
+use crate::task::simulate::Events;
+use crate::{AnswerError, Asked, ReportError, ShownValue as _, Table, Units, figure, table, task};
 use vibroimpact::Start;
 use vibroimpact::chaos::{self, Exponents};
 use vibroimpact::continuation::{CurvePoint, SolutionPoint};
@@ -34,8 +34,7 @@ const TRANSIENT: u64 = 200;
 
 impl AnswerOf<SystemPlan> {
     /// The system, and the units of all reported values.
-    #[must_use]
-    pub const fn asked(&self) -> Asked {
+    pub(crate) const fn asked(&self) -> Asked {
         Asked { system: self.written, units: self.units }
     }
 
@@ -179,7 +178,7 @@ impl Told for SystemPlan {
 
     fn settled_table<'a>(of: &'a AnswerOf<Self>, found: &'a Settled, view: View) -> Result<Table<'a>, ReportError> {
         if view == View::Sections {
-            return Ok(table::section::table(&of.sections(found), &of.system, &of.units.states(), of.units).kept());
+            return Ok(task::lyapunov::table(&of.sections(found), &of.system, &of.units.states(), of.units).kept());
         }
         table::waveform::steady(&of.system, of.start, found, of.units)
     }

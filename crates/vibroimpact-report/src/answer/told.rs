@@ -1,20 +1,20 @@
 //! What is told of the answers of one kind of system only; all else is written once, in the modules of answers and of JSON.
 
 use super::AnswerOf;
-use crate::json::attractors::Area;
-use crate::json::basin::MeasureFields;
 use crate::json::branch::{self, Along, EventOf};
-use crate::json::curve;
 use crate::json::event::{StateObject, Stops};
-use crate::json::lyapunov::LyapunovAnswer;
 use crate::json::motion::MotionObject;
-use crate::json::orbit::OrbitObject;
-use crate::json::settle::SettleAnswer;
-use crate::json::simulate::Events;
 use crate::json::system::SystemObject;
-use crate::response::ResponseView;
 use crate::scene::View;
 use crate::table::remarks::Remark;
+use crate::task::attractors::Area;
+use crate::task::basin::MeasureFields;
+use crate::task::curve;
+use crate::task::lyapunov::LyapunovAnswer;
+use crate::task::orbit::OrbitObject;
+use crate::task::response::ResponseView;
+use crate::task::settle::SettleAnswer;
+use crate::task::simulate::Events;
 use crate::{AnswerError, FieldName, ReportError, ShownValue, Table, Units, Varied};
 use vibroimpact::chaos::Exponents;
 use vibroimpact::machine::Machine;

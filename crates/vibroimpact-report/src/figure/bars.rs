@@ -3,8 +3,8 @@
 use crate::figure::label;
 use crate::figure::styles::EVENT_COLOURS;
 use crate::json::event::Stops;
-use crate::json::margins::ParameterObject;
 use crate::number::short;
+use crate::task::margins::ParameterObject;
 use crate::varied::Varied;
 use crate::{ReportError, Units};
 use vibroimpact::verdict::System;

@@ -2,7 +2,7 @@
 
 use crate::figure::label;
 use crate::figure::styles::{CURVE_MARKS, EVENT_COLOURS};
-use crate::json::curve::CurveAnswer;
+use crate::task::curve::CurveAnswer;
 use crate::{Units, Varied};
 use std::collections::BTreeMap;
 use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, Stroke};

@@ -3,7 +3,7 @@
 
 use crate::figure::label;
 use crate::figure::styles::BOUND_STYLES;
-use crate::json::region::unit;
+use crate::task::region::unit;
 use crate::{Units, Varied};
 use vibroimpact::continuation::{Bound, Polygon, Region};
 use vibroimpact_plot::{

@@ -2,7 +2,7 @@
 
 use crate::figure::branch::{motion_line, of_motion};
 use crate::figure::{label, series};
-use crate::response::ResponseView;
+use crate::task::response::ResponseView;
 use vibroimpact::verdict::Stability;
 use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Panel, Points, Stroke, class_style};
 use vibroimpact_study::ResponseRow;

@@ -1,17 +1,17 @@
 //! The object of the answer to each plan, of any system.
 
 use super::Document;
-use super::attractors::AttractorsAnswer;
-use super::basin::BasinAnswer;
-use super::diagram::DiagramAnswer;
-use super::edge::EdgeAnswer;
-use super::map::MapAnswer;
-use super::margins::MarginsAnswer;
-use super::region::RegionAnswer;
-use super::response::ResponseAnswer;
-use super::simulate::SimulateAnswer;
 use crate::PROGRAM;
 use crate::answer::{AnswerOf, Told};
+use crate::task::attractors::AttractorsAnswer;
+use crate::task::basin::BasinAnswer;
+use crate::task::diagram::DiagramAnswer;
+use crate::task::edge::EdgeAnswer;
+use crate::task::map::MapAnswer;
+use crate::task::margins::MarginsAnswer;
+use crate::task::region::RegionAnswer;
+use crate::task::response::ResponseAnswer;
+use crate::task::simulate::SimulateAnswer;
 use serde::ser::Error;
 use serde::{Serialize, Serializer};
 use vibroimpact_study::{Results, Task};

@@ -24,7 +24,7 @@ pub(crate) const START: &str = "start";
 
 /// The answer to `vibro branch`.
 #[derive(JsonSchema, Serialize)]
-pub struct BranchAnswer<'a> {
+pub(crate) struct BranchAnswer<'a> {
     /// The label of the orbit at which the first branch begins.
     pub label: String,
     /// The number that varies.
@@ -55,7 +55,7 @@ pub struct BranchAnswer<'a> {
 
 /// The orbit at which the branch begins.
 #[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
-pub struct ChosenObject {
+pub(crate) struct ChosenObject {
     /// Its number, counted from 1.
     pub number: u32,
     /// How many orbits with its label there are.
@@ -70,7 +70,7 @@ impl ChosenObject {
 
 /// A branch.
 #[derive(JsonSchema, Serialize)]
-pub struct BranchObject<'a> {
+pub(crate) struct BranchObject<'a> {
     /// The event at which it begins; null for that of the orbit that was asked for.
     pub from: Option<OriginObject>,
     /// The index of the point at which it was followed both ways; absent if that is the first point.
@@ -89,7 +89,7 @@ pub struct BranchObject<'a> {
 
 /// The event at which a branch begins.
 #[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
-pub struct OriginObject {
+pub(crate) struct OriginObject {
     /// Its kind.
     pub kind: &'static str,
     /// The value of the parameter.
@@ -133,7 +133,7 @@ pub struct PointObject<'a> {
 
 /// An event of a branch.
 #[derive(JsonSchema, Serialize)]
-pub struct BranchEventObject<'a> {
+pub(crate) struct BranchEventObject<'a> {
     /// Its kind.
     pub kind: &'static str,
     /// The value of the parameter.
@@ -165,7 +165,7 @@ pub enum EventOf<'a> {
 
 /// The fields of an event that do not depend on the branch.
 #[derive(Default, JsonSchema, Serialize)]
-pub struct EventFields<'a> {
+pub(crate) struct EventFields<'a> {
     /// Whether the branch ends there.
     pub ends: bool,
     /// The label before it.
@@ -204,7 +204,7 @@ struct TouchObject<'a> {
 }
 
 /// The systems of a branch: as they are written, that of the start, and the units of the results.
-pub type Along<'a, D> = (&'a D, &'a <D as Dynamics>::System, &'a Units);
+pub(crate) type Along<'a, D> = (&'a D, &'a <D as Dynamics>::System, &'a Units);
 
 impl<'a> BranchAnswer<'a> {
     /// The branches along a line, with the quantity `show` at each point.
@@ -269,15 +269,13 @@ impl<'a> BranchObject<'a> {
     }
 
     /// The points of each side on the way from the start, which is the first of both: one side, or two if it was followed both ways.
-    #[must_use]
-    pub fn sides(&self) -> Vec<Vec<usize>> {
+    pub(crate) fn sides(&self) -> Vec<Vec<usize>> {
         let back = self.start.map(|start| (0..=start).rev().collect());
         back.into_iter().chain([(self.start.unwrap_or(0)..self.points.len()).collect()]).collect()
     }
 
     /// The event at a point.
-    #[must_use]
-    pub fn event_at(&self, point: usize) -> Option<&BranchEventObject<'a>> {
+    pub(crate) fn event_at(&self, point: usize) -> Option<&BranchEventObject<'a>> {
         let place = self.events.binary_search_by_key(&point, |event| event.point).ok()?;
         Some(&self.events[place])
     }
@@ -299,8 +297,7 @@ impl PointObject<'_> {
     }
 
     /// The values of all numbers that vary.
-    #[must_use]
-    pub fn values(&self) -> &[f64] {
+    pub(crate) fn values(&self) -> &[f64] {
         self.values.as_ref().map_or(core::slice::from_ref(&self.parameter), <[f64; 2]>::as_slice)
     }
 }

@@ -14,8 +14,7 @@ use vibroimpact::{Oscillator, Side, Start};
 use vibroimpact_study::machine::contact_word;
 
 /// The name of a stop of an oscillator.
-#[must_use]
-pub const fn side(side: Side) -> &'static str {
+pub(crate) const fn side(side: Side) -> &'static str {
     match side {
         Side::Upper => "upper",
         Side::Lower => "lower",
@@ -232,7 +231,7 @@ pub(crate) fn exact(start: &events::Start) -> Map<String, Value> {
 }
 
 /// An event that is written while it is computed.
-pub(super) struct EventOf<'a>(pub(super) &'a Machine, pub(super) events::Event);
+pub(crate) struct EventOf<'a>(pub(crate) &'a Machine, pub(crate) events::Event);
 
 impl Serialize for EventOf<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -1,25 +1,11 @@
 //! The JSON objects, one file for each command. Numbers that are not finite are `null`.
 
 mod answer;
-pub mod attractors;
-pub mod basin;
 pub mod branch;
-mod certainty;
-pub mod curve;
-pub mod diagram;
-pub(crate) mod edge;
 pub mod event;
-pub mod lyapunov;
-pub mod map;
-pub mod margins;
 pub mod motion;
-pub mod orbit;
 pub(crate) mod quantities;
-pub mod region;
-pub mod response;
 mod schema;
-pub mod settle;
-pub mod simulate;
 pub(crate) mod system;
 
 use crate::units::given;
@@ -32,24 +18,24 @@ use vibroimpact_study::{Axis, Cut, Span, Stretch, Values};
 
 /// The object that a command prints: the system, the start, the fields of the command, and the plan.
 #[derive(JsonSchema, Serialize)]
-struct Document<'a, T, P> {
-    system: SystemObject<'a>,
+pub(crate) struct Document<'a, T, P> {
+    pub(crate) system: SystemObject<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    start: Option<StateObject<'a>>,
+    pub(crate) start: Option<StateObject<'a>>,
     /// Whether numbers are nondimensional or in SI units; absent for machines, whose units are those of their numbers.
     #[serde(skip_serializing_if = "Option::is_none")]
-    units: Option<&'static str>,
+    pub(crate) units: Option<&'static str>,
     #[serde(flatten)]
-    result: T,
+    pub(crate) result: T,
     /// The plan, which gives the same answer again (`vibro run`); `vibro schema` prints its fields.
     #[schemars(with = "serde_json::Map<String, serde_json::Value>")]
-    plan: &'a P,
-    program: &'static str,
+    pub(crate) plan: &'a P,
+    pub(crate) program: &'static str,
 }
 
 /// `A:B:N` as an object, in the units of the results.
 #[derive(Clone, Copy, JsonSchema, Serialize)]
-struct Range {
+pub(crate) struct Range {
     from: f64,
     to: f64,
     count: u32,
@@ -58,7 +44,7 @@ struct Range {
 }
 
 impl Range {
-    fn new(span: &Span, unit: f64) -> Self {
+    pub(crate) fn new(span: &Span, unit: f64) -> Self {
         let (from, to) = span.ends();
         let logarithmic = span.is_logarithmic();
         Self { from: given(from, unit), to: given(to, unit), count: span.count(), logarithmic }
@@ -67,7 +53,7 @@ impl Range {
 
 /// The second parameter of a line, with its values at both ends.
 #[derive(JsonSchema, Serialize)]
-struct Pair {
+pub(crate) struct Pair {
     parameter: String,
     from: f64,
     to: f64,
@@ -75,7 +61,7 @@ struct Pair {
 
 impl Pair {
     /// In the units of the results.
-    fn of<V: Varied>(cut: &Cut<V>, units: &Units) -> Option<Self> {
+    pub(crate) fn of<V: Varied>(cut: &Cut<V>, units: &Units) -> Option<Self> {
         let Stretch { parameter, from, to } = cut.also.as_ref()?;
         let unit = parameter.unit(units);
         Some(Self { parameter: parameter.field(units).to_owned(), from: given(*from, unit), to: given(*to, unit) })
@@ -85,21 +71,21 @@ impl Pair {
 /// The values of an axis.
 #[derive(JsonSchema, Serialize)]
 #[serde(untagged)]
-enum Place {
+pub(crate) enum Place {
     Over(Range),
     Listed(Vec<f64>),
 }
 
 /// An axis: the path of what varies, and its values.
 #[derive(JsonSchema, Serialize)]
-struct AxisObject {
+pub(crate) struct AxisObject {
     vary: String,
     over: Place,
 }
 
 impl AxisObject {
     /// All axes, in the units of the results.
-    fn all<V: Varied>(axes: &[Axis<V>], units: &Units) -> Vec<Self> {
+    pub(crate) fn all<V: Varied>(axes: &[Axis<V>], units: &Units) -> Vec<Self> {
         let object = |axis: &Axis<V>| Self {
             vary: axis.vary.field(units).to_owned(),
             over: Place::over(&axis.over, axis.vary.unit(units)),
@@ -109,7 +95,7 @@ impl AxisObject {
 }
 
 impl Place {
-    fn over(values: &Values, unit: f64) -> Self {
+    pub(crate) fn over(values: &Values, unit: f64) -> Self {
         match values {
             Values::Span(span) => Self::Over(Range::new(span, unit)),
             Values::Listed(list) => Self::Listed(list.iter().map(|value| given(*value, unit)).collect()),
@@ -117,5 +103,4 @@ impl Place {
     }
 }
 
-pub use motion::undecided;
 pub use schema::{schema, verbs};

@@ -91,7 +91,7 @@ pub struct MotionObject<'a> {
 
 /// A measured number; null where it is not finite, with the reason.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct Estimate {
+pub(crate) struct Estimate {
     value: f64,
     error: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -110,7 +110,7 @@ impl From<Measured> for Estimate {
 }
 
 impl Estimate {
-    pub(super) fn per_time(of: Measured, units: &Units) -> Self {
+    pub(crate) fn per_time(of: Measured, units: &Units) -> Self {
         Self::from(Measured { value: of.value / units.time(), error: of.error / units.time() })
     }
 }
@@ -122,7 +122,7 @@ fn estimates(spectrum: &Spectrum<impl AsRef<[Measured]>>, units: &Units) -> Vec<
 
 /// Chaos before the motion settled.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct ChaosObject {
+pub(crate) struct ChaosObject {
     /// The number of the impact by which it had ended, of an oscillator.
     #[serde(skip_serializing_if = "Option::is_none")]
     events: Option<u64>,
@@ -131,14 +131,14 @@ pub(super) struct ChaosObject {
 
 impl ChaosObject {
     /// Of an oscillator, of which there is no `machine`, with the number of the impact.
-    pub(super) fn new<S: System>(chaos: &Chaos<S>, machine: Option<&Machine>, units: &Units) -> Self {
+    pub(crate) fn new<S: System>(chaos: &Chaos<S>, machine: Option<&Machine>, units: &Units) -> Self {
         Self { events: machine.is_none().then_some(chaos.impacts), exponents: estimates(&chaos.spectrum, units) }
     }
 }
 
 /// Why there are no more impacts, and for how many periods.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct HorizonObject {
+pub(crate) struct HorizonObject {
     kind: &'static str,
     periods: Option<f64>,
     why: &'static str,
@@ -242,7 +242,7 @@ impl MotionObject<'static> {
 
 impl<'a> MotionObject<'a> {
     /// The same without the exponent of the verdict, for a report with a more precise one.
-    pub(super) fn without_lyapunov(self) -> Self {
+    pub(crate) fn without_lyapunov(self) -> Self {
         Self { lyapunov: None, ..self }
     }
 
@@ -330,7 +330,7 @@ fn counts(osc: &Oscillator, verdict: &Verdict) -> Option<Map<String, Value>> {
 }
 
 /// The drift of a cycle by coordinate; `None` in a machine without free translations.
-pub(super) fn drift(machine: &Machine, cycle: &machine::Cycle) -> Option<Map<String, Value>> {
+pub(crate) fn drift(machine: &Machine, cycle: &machine::Cycle) -> Option<Map<String, Value>> {
     (cycle.translations() > 0).then(|| by_coordinate(machine, &cycle.drift))
 }
 
@@ -345,8 +345,7 @@ pub(crate) fn multipliers(of: &[Multiplier]) -> Vec<[f64; 2]> {
 }
 
 /// Why a motion is undecided.
-#[must_use]
-pub const fn undecided(why: UndecidedCause) -> &'static str {
+pub(crate) const fn undecided(why: UndecidedCause) -> &'static str {
     match why {
         UndecidedCause::Budget => "events",
         UndecidedCause::Unconfirmed => "unconfirmed",
@@ -360,13 +359,13 @@ pub const fn undecided(why: UndecidedCause) -> &'static str {
 
 /// A motion, with the share and the number of the starts that lead to it.
 #[derive(JsonSchema, Serialize)]
-pub(super) struct SharedMotion<'a> {
+pub(crate) struct SharedMotion<'a> {
     #[serde(flatten)]
-    pub(super) motion: MotionObject<'a>,
+    pub(crate) motion: MotionObject<'a>,
     /// The share of the starts that lead to it, 0 to 1.
-    pub(super) share: f64,
+    pub(crate) share: f64,
     /// The number of these starts.
-    pub(super) starts: u64,
+    pub(crate) starts: u64,
 }
 
 /// The object of a motion of an oscillator as text, nondimensional.

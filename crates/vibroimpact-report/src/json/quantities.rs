@@ -9,23 +9,23 @@ use vibroimpact::quantities::machine::{self, Part};
 use vibroimpact::quantities::{Quantities, Quantity};
 
 /// Those of an oscillator.
-pub(super) fn of_oscillator(found: &Quantities, units: &Units) -> Map<String, Value> {
+pub(crate) fn of_oscillator(found: &Quantities, units: &Units) -> Map<String, Value> {
     let value = |quantity: Quantity| (quantity.name().to_owned(), units.value_of(found, quantity).into());
     Quantity::ALL.into_iter().map(value).collect()
 }
 
 /// Three standard errors of the means of a chaotic motion of an oscillator: only those that there are.
-pub(super) fn errors_of_oscillator(errors: &Quantities, units: &Units) -> Map<String, Value> {
+pub(crate) fn errors_of_oscillator(errors: &Quantities, units: &Units) -> Map<String, Value> {
     of_oscillator(errors, units).into_iter().filter(|(_, error)| !error.is_null()).collect()
 }
 
 /// Those of a machine.
-pub(super) fn of_machine(machine: &Machine, found: &machine::Quantities) -> Map<String, Value> {
+pub(crate) fn of_machine(machine: &Machine, found: &machine::Quantities) -> Map<String, Value> {
     by_part(machine, found, |measured| Some(Value::from(measured.value)))
 }
 
 /// Three standard errors of the means of a chaotic motion of a machine: only those that there are.
-pub(super) fn errors_of_machine(machine: &Machine, found: &machine::Quantities) -> Map<String, Value> {
+pub(crate) fn errors_of_machine(machine: &Machine, found: &machine::Quantities) -> Map<String, Value> {
     by_part(machine, found, |measured| measured.error.is_finite().then(|| Value::from(measured.error)))
 }
 

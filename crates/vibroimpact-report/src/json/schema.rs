@@ -1,21 +1,21 @@
 //! The JSON schema of the answer to each command, the same for every system.
 
-use super::attractors::AttractorsAnswer;
-use super::basin::BasinAnswer;
 use super::branch::BranchAnswer;
-use super::curve::CurveAnswer;
-use super::diagram::DiagramAnswer;
-use super::edge::EdgeAnswer;
-use super::lyapunov::LyapunovAnswer;
-use super::map::MapAnswer;
-use super::margins::MarginsAnswer;
-use super::orbit::OrbitAnswer;
-use super::region::RegionAnswer;
-use super::response::ResponseAnswer;
-use super::settle::SettleAnswer;
-use super::simulate::SimulateAnswer;
 use super::{Document, JsonSchema};
 use crate::ContactAnswer;
+use crate::task::attractors::AttractorsAnswer;
+use crate::task::basin::BasinAnswer;
+use crate::task::curve::CurveAnswer;
+use crate::task::diagram::DiagramAnswer;
+use crate::task::edge::EdgeAnswer;
+use crate::task::lyapunov::LyapunovAnswer;
+use crate::task::map::MapAnswer;
+use crate::task::margins::MarginsAnswer;
+use crate::task::orbit::OrbitAnswer;
+use crate::task::region::RegionAnswer;
+use crate::task::response::ResponseAnswer;
+use crate::task::settle::SettleAnswer;
+use crate::task::simulate::SimulateAnswer;
 use schemars::generate::SchemaSettings;
 use serde_json::Value;
 

@@ -1,17 +1,8 @@
 //! Tables with a header, commas, and a line feed after each row. Numbers have the shortest form that reads back as the
 //! same double.
 
-pub(crate) mod attractors;
-pub(crate) mod basin;
-pub mod diagram;
-pub mod edge;
-pub mod map;
-pub mod margins;
-pub mod orbits;
-pub mod region;
+pub(crate) mod cycles;
 pub(crate) mod remarks;
-pub mod response;
-pub mod section;
 pub mod waveform;
 
 use crate::number::Number;

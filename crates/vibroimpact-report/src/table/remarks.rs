@@ -15,25 +15,25 @@ fn stops_of(system: &impl Stops, stops: &[usize]) -> String {
 /// The columns that say more of some labels than the label, where such motions are in a table: the stops that stay closed for ever,
 /// and the number of events over which chaos was seen.
 #[derive(Clone, Copy)]
-pub(super) struct Remarks {
+pub(crate) struct Remarks {
     stops: bool,
     events: bool,
 }
 
 impl Remarks {
-    pub(super) fn of(motions: impl Iterator<Item = Remark>) -> Self {
+    pub(crate) fn of(motions: impl Iterator<Item = Remark>) -> Self {
         motions.fold(Self { stops: false, events: false }, |so_far, (stops, events)| Self {
             stops: so_far.stops || !stops.is_empty(),
             events: so_far.events || events.is_some(),
         })
     }
 
-    pub(super) fn heads(self) -> impl Iterator<Item = &'static str> {
+    pub(crate) fn heads(self) -> impl Iterator<Item = &'static str> {
         [("stop", self.stops), ("seen_events", self.events)].into_iter().filter_map(|(name, here)| here.then_some(name))
     }
 
     /// The cells of a motion, each after a comma.
-    pub(super) fn cells(self, system: &impl Stops, (stops, events): &Remark) -> String {
+    pub(crate) fn cells(self, system: &impl Stops, (stops, events): &Remark) -> String {
         let mut cells = String::new();
         if self.stops {
             cells.push_str(&stops_of(system, stops));
@@ -46,6 +46,6 @@ impl Remarks {
 }
 
 /// The remarks on the motions of a table of verdicts.
-pub(super) fn remarks<'a, D: Told<System: 'a>>(verdicts: impl Iterator<Item = &'a Verdict<D::System>>) -> Remarks {
+pub(crate) fn remarks<'a, D: Told<System: 'a>>(verdicts: impl Iterator<Item = &'a Verdict<D::System>>) -> Remarks {
     Remarks::of(verdicts.map(D::remark))
 }
