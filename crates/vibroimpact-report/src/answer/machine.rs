@@ -7,7 +7,7 @@ use crate::json::event::StateObject;
 use crate::json::motion::MotionObject;
 use crate::json::system::SystemObject;
 use crate::scene::{self, View};
-use crate::table::remarks::Remark;
+use crate::table::Remark;
 use crate::task::curve;
 use crate::task::orbit::OrbitObject;
 use crate::task::response::ResponseView;

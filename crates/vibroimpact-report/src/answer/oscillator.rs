@@ -40,7 +40,7 @@ impl AnswerOf<SystemPlan> {
 
     /// Both sections of a settled motion: a few dots for a cycle, a cloud for chaos.
     fn sections(&self, settled: &Settled) -> SectionPoints {
-        let (from, _) = figure::settle::last_event(&self.system, self.start, settled.time);
+        let (from, _) = figure::waveform::last_event(&self.system, self.start, settled.time);
         SectionPoints::of_oscillator(&self.system, &chaos::section(&self.system, from, TRANSIENT, SECTION_POINTS))
     }
 }
@@ -155,9 +155,9 @@ impl Told for SystemPlan {
     fn settled_figure(of: &AnswerOf<Self>, found: &Settled, view: View) -> Result<Figure, AnswerError> {
         let (osc, start, asked) = (&of.system, of.start, &of.asked());
         Ok(match view {
-            View::Waveform => figure::settle::figure(osc, start, found, asked),
+            View::Waveform => figure::waveform::settled(osc, start, found, asked),
             View::Phase => {
-                let (_, (from, shown)) = figure::settle::steady(osc, start, found);
+                let (_, (from, shown)) = figure::waveform::steady(osc, start, found);
                 phase_portrait(asked, osc, start, (from, from + shown))
             }
             View::Multipliers => {

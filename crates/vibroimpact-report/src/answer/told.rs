@@ -6,7 +6,7 @@ use crate::json::event::{StateObject, Stops};
 use crate::json::motion::MotionObject;
 use crate::json::system::SystemObject;
 use crate::scene::View;
-use crate::table::remarks::Remark;
+use crate::table::Remark;
 use crate::task::attractors::Area;
 use crate::task::basin::MeasureFields;
 use crate::task::curve;

@@ -17,7 +17,6 @@ pub mod region;
 pub mod response;
 pub mod scattered;
 pub mod section;
-pub mod settle;
 pub mod shares;
 pub mod stored;
 pub mod styles;

@@ -5,7 +5,6 @@ pub mod branch;
 pub mod event;
 pub mod motion;
 pub(crate) mod quantities;
-mod schema;
 pub(crate) mod system;
 
 use crate::units::given;
@@ -103,4 +102,4 @@ impl Place {
     }
 }
 
-pub use schema::{schema, verbs};
+pub use answer::{schema, verbs};

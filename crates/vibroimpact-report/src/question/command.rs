@@ -1,7 +1,6 @@
 //! A plan as the words of a `vibro` command.
 
-use super::arguments::{Argument, arguments, ends, plain};
-use super::body::numbers_of;
+use super::arguments::{Argument, arguments, ends, numbers_of, plain};
 use super::number;
 use crate::Units;
 use crate::units::shown_span;

@@ -1,7 +1,6 @@
 //! The same question in two other forms: as a command line, and as a call in Python.
 
 mod arguments;
-mod body;
 mod command;
 mod python;
 mod shell;

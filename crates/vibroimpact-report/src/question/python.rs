@@ -1,7 +1,6 @@
 //! A plan as a call of the Python package.
 
-use super::arguments::{Argument, arguments, ends, plain};
-use super::body::{numbers_of, without_unit};
+use super::arguments::{Argument, arguments, ends, numbers_of, plain, without_unit};
 use super::number;
 use crate::Units;
 use crate::scene::{SECTION_POINTS, View};

@@ -1,7 +1,7 @@
 //! The phase portrait: velocity over position, with the stops of an oscillator and the jumps at impacts; of a machine a panel for
 //! each coordinate.
 
-use crate::figure::settle::last_event;
+use crate::figure::waveform::last_event;
 use crate::figure::waveform::{extremes, stop_key};
 use crate::figure::{first_of, title};
 use crate::table::waveform::samples;

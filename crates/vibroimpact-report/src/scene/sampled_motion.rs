@@ -1,7 +1,7 @@
 //! A motion as points and events, for a page that draws and animates it.
 
 use crate::Units;
-use crate::figure::settle::steady;
+use crate::figure::waveform::steady;
 use crate::json::event::EventObject;
 use serde::Serialize;
 use vibroimpact::motion::{Motion, sample};

@@ -58,7 +58,7 @@ pub(crate) fn steady(
     settled: &Settled,
     units: Units,
 ) -> Result<Table<'static>, ReportError> {
-    let (from, (_, shown)) = figure::settle::steady(osc, start, settled);
+    let (from, (_, shown)) = figure::waveform::steady(osc, start, settled);
     table(osc, from, (shown, osc.period() / 100.0), units)
 }
 

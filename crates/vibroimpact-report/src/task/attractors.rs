@@ -3,10 +3,10 @@
 use crate::json::motion::{SharedMotion, multipliers};
 use crate::number::{Number, percent};
 use crate::table::cycles::{drifts, finite, numbered, parts};
-use crate::table::remarks::remarks;
+use crate::table::remarks;
 use crate::task::certainty::{Certainty, certainty};
-use crate::text::leading::leading;
-use crate::text::motion::Teller;
+use crate::text::Teller;
+use crate::text::words::leading;
 use crate::text::words::{self, aligned};
 use crate::{AnswerOf, FieldName, Table, Told, Units};
 use schemars::JsonSchema;

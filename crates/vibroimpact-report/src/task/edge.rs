@@ -3,8 +3,7 @@
 use crate::figure::label;
 use crate::json::motion::MotionObject;
 use crate::number::{Number, precise, short};
-use crate::text::motion::Teller;
-use crate::text::words;
+use crate::text::Teller;
 use crate::{AnswerOf, Table, Told};
 use core::fmt::Write;
 use schemars::JsonSchema;
@@ -131,13 +130,7 @@ pub(crate) fn text<D: Teller>(of: &AnswerOf<D>, found: &Edge<D::System>) -> Stri
                 "the motion on the border comes close to this one after {}:",
                 counted(laps as u64, "lap")
             );
-            let by_stop = D::by_stop(of, saddle);
-            let _ = writeln!(text, "{}{by_stop}: {}", saddle.label(), D::meaning(of, saddle));
-            text.push_str(&D::events_text(of, saddle));
-            if let Some(stability) = D::stability_words(of, saddle) {
-                let multipliers = D::multipliers(of, saddle);
-                let _ = writeln!(text, "  {stability}; multipliers {}", words::multipliers(&multipliers));
-            }
+            text.push_str(&D::told_briefly(of, saddle));
         }
         None => text.push_str(&format!(
             "the motion on the border came back to none of its earlier states in {}\n",

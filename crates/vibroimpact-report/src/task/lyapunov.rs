@@ -3,7 +3,7 @@
 use crate::json::event::{Stops, side};
 use crate::json::motion::{Estimate, HorizonObject, MotionObject};
 use crate::number::{Number, short};
-use crate::text::motion::Teller;
+use crate::text::Teller;
 use crate::text::words::{aligned, seconds, stop_name};
 use crate::{AnswerOf, Table, Told, Units};
 use schemars::JsonSchema;

@@ -4,7 +4,7 @@ use crate::json::branch::EventFields;
 use crate::json::event::Stops;
 use crate::json::motion::MotionObject;
 use crate::number::{Number, percent, precise, short};
-use crate::text::motion::Teller;
+use crate::text::Teller;
 use crate::text::words::aligned;
 use crate::{AnswerOf, Table, Told, Units, Varied};
 use schemars::JsonSchema;
@@ -218,8 +218,7 @@ pub(crate) fn text<D: Teller>(of: &AnswerOf<D>, found: &MotionMargins<D::System,
     let (units, why) = (&of.units, |point: &PointOf<D>| D::because(of, point));
     let stability = found.motion.stability(&of.system);
     let stable = stability.map_or_else(String::new, |stability| format!(", {stability}"));
-    let (by_stop, meaning) = (D::by_stop(of, &found.motion), D::meaning(of, &found.motion));
-    let mut text = format!("{}{by_stop}: {meaning}{stable}\n", found.motion.label());
+    let mut text = format!("{}{stable}\n", D::headline(of, &found.motion));
     if found.parameters.is_empty() {
         text.push_str("  it is no single periodic motion, so it has no branch to follow and no margins\n");
         return text;

@@ -7,8 +7,9 @@ use crate::json::motion::MotionObject;
 use crate::number::Number;
 use crate::number::short;
 use crate::table::cycles::Columns;
-use crate::text::motion::Teller;
-use crate::text::words::{by_stop, impacts, multipliers, stop_name};
+use crate::text::Teller;
+use crate::text::oscillator::impacts;
+use crate::text::words::{multipliers, stop_name};
 use crate::{AnswerOf, Units};
 use core::f64::consts::TAU;
 use schemars::JsonSchema;
@@ -127,7 +128,7 @@ pub(crate) fn text<D: Teller>(of: &AnswerOf<D>, orbits: &[Orbit<CycleOf<D>>]) ->
 
 /// The text of an orbit of an oscillator; without one why there may be none.
 pub(crate) fn of_oscillator(of: &AnswerOf<SystemPlan>, orbit: Option<&Orbit>) -> String {
-    let (osc, units) = (&of.system, &of.units);
+    let units = &of.units;
     let Some(orbit) = orbit else {
         let free = matches!(&of.plan.task, Task::Orbit { label } if label.parse() == Ok(Label::new(0, 1)));
         let why = "without damping, motions without impacts are no single cycle: `vibro settle` finds them\n";
@@ -137,9 +138,9 @@ pub(crate) fn of_oscillator(of: &AnswerOf<SystemPlan>, orbit: Option<&Orbit>) ->
         return SystemPlan::told(of, &Verdict::Periodic(orbit.cycle.clone()));
     }
     let cycle = &orbit.cycle;
-    let by_stop = by_stop(&Verdict::Periodic(cycle.clone()), osc);
+    let by_stop = SystemPlan::by_stop(of, &Verdict::Periodic(cycle.clone()));
     let mut text = format!("{}{by_stop}: inadmissible, it passes through a stop on its way\n", cycle.label);
-    text.push_str(&impacts(cycle, osc, units));
+    text.push_str(&impacts(of, cycle));
     text.push_str(&format!("  multipliers {}\n", multipliers(&cycle.multipliers)));
     if let Some(contact) = &orbit.earlier {
         let unit = if units.si { " s" } else { "" };

@@ -3,7 +3,7 @@
 use crate::json::motion::{ChaosObject, MotionObject};
 use crate::json::quantities;
 use crate::number::short;
-use crate::text::motion::Teller;
+use crate::text::Teller;
 use crate::text::words::seconds;
 use crate::{AnswerOf, Told, Units};
 use schemars::JsonSchema;

@@ -3,9 +3,10 @@
 use crate::json::event::{self, EventObject};
 use crate::json::motion::HorizonObject;
 use crate::number::short;
-use crate::text::motion::kind_and_speed;
-use crate::text::words::{aligned, meaning};
-use crate::{Asked, Units};
+use crate::text::Teller;
+use crate::text::machine::kind_and_speed;
+use crate::text::words::aligned;
+use crate::{AnswerOf, Units};
 use schemars::JsonSchema;
 use serde::ser::Error;
 use serde::{Serialize, Serializer};
@@ -13,7 +14,8 @@ use vibroimpact::Oscillator;
 use vibroimpact::events;
 use vibroimpact::machine::Machine;
 use vibroimpact::motion::{Event, EventKind};
-use vibroimpact_study::{SimulatePlan, Simulated, Task, events_with_states};
+use vibroimpact::verdict::Verdict;
+use vibroimpact_study::{SimulatePlan, Simulated, SystemPlan, Task, events_with_states};
 
 /// The answer to `vibro simulate`.
 #[derive(JsonSchema, Serialize)]
@@ -65,8 +67,8 @@ fn each_event<S: Serializer>(events: &Events<'_>, serializer: S) -> Result<S::Ok
 }
 
 /// The events, and the reason why the list ends.
-pub(crate) fn text(followed: &Simulated, task: &Task, asked: &Asked) -> String {
-    let units = &asked.units;
+pub(crate) fn text(of: &AnswerOf<SystemPlan>, followed: &Simulated) -> String {
+    let units = &of.units;
     let heads = [
         units.named("time", "s"),
         "phase".into(),
@@ -74,7 +76,7 @@ pub(crate) fn text(followed: &Simulated, task: &Task, asked: &Asked) -> String {
         units.named("before", "m/s"),
         units.named("after", "m/s"),
     ];
-    let both = asked.system.second_stop.is_some();
+    let both = of.written.second_stop.is_some();
     let rows: Vec<Vec<String>> = followed
         .events
         .iter()
@@ -96,8 +98,8 @@ pub(crate) fn text(followed: &Simulated, task: &Task, asked: &Asked) -> String {
             row
         })
         .collect();
-    let no_impact = followed.horizon.map(|horizon| meaning(&vibroimpact::verdict::Verdict::NoImpact(horizon)));
-    listed(&heads, &rows) + &end(followed.reason, task, &short(followed.time * units.time()), no_impact)
+    let no_impact = followed.horizon.map(|horizon| SystemPlan::meaning(of, &Verdict::NoImpact(horizon)));
+    listed(&heads, &rows) + &end(followed.reason, &of.plan.task, &short(followed.time * units.time()), no_impact)
 }
 
 /// The same of a machine, with its coordinates and velocities after each event.

@@ -1,192 +1,25 @@
-//! Motions of any system as text: what is the same of all of them.
+//! The text of the motions of a machine.
 
+use crate::AnswerOf;
 use crate::json::branch::EventOf;
 use crate::json::motion::undecided;
 use crate::number::short;
-use crate::task::{basin, margins, orbit, region, settle, simulate};
+use crate::task::simulate;
+use crate::text::Teller;
 use crate::text::branch::because;
-use crate::text::words::{
-    self, ROUNDING_DECIDES, ROUNDING_GROWS, aligned, by_stop, counted_word, meaning,
-    quantities as quantities_of_oscillator,
-};
-use crate::{AnswerOf, Told};
+use crate::text::words::{self, ROUNDING_DECIDES, ROUNDING_GROWS, aligned, counted_word};
 use core::fmt::Write;
 use vibroimpact::chaos::{Measured, Spectrum};
-use vibroimpact::continuation::{SolutionPoint, machine};
+use vibroimpact::continuation::machine;
 use vibroimpact::events::{End, Event, EventKind};
 use vibroimpact::machine::{Machine, StopLaw};
 use vibroimpact::orbit::machine::Cycle;
 use vibroimpact::quantities::machine::{Part, Quantities as PartQuantities};
-use vibroimpact::quantities::{Quantity, machine_cycle_quantities, machine_quantities, of_verdict};
+use vibroimpact::quantities::{Quantity, machine_cycle_quantities, machine_quantities};
 use vibroimpact::verdict::machine::longest_flight;
-use vibroimpact::verdict::{Count, Settled, StartBox, Undecided, UndecidedCause, Verdict};
+use vibroimpact::verdict::{Count, Settled, Undecided, UndecidedCause, Verdict};
 use vibroimpact_study::machine::MachineSource;
-use vibroimpact_study::{
-    Basin, CycleOf, MotionMargins, Orbit, PointOf, RegionPlan, Simulated, SystemPlan, Task, counted,
-};
-
-/// A system whose motions are told.
-pub(crate) trait Teller: Told {
-    /// What is told before the result: the system, and its start where there is one.
-    fn heading(_: &AnswerOf<Self>) -> String {
-        String::new()
-    }
-
-    /// The meaning, as a sentence without full stop.
-    fn meaning(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> String;
-
-    /// The impacts on each of several stops in brackets, after a blank; empty where the label says it.
-    fn by_stop(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> String;
-
-    /// A quantity with its unit; a dash where it is not defined.
-    fn quantity_text(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>, quantity: Quantity) -> String;
-
-    /// The events of a cycle, one row each.
-    fn events_text(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> String;
-
-    /// The stability, where it is known, or known to be open.
-    fn stability_words(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> Option<&'static str> {
-        let stability = verdict.stability(&of.system);
-        let known = stability.is_some() || !Self::multipliers(of, verdict).is_empty();
-        let free = Self::machine(of).is_none() && matches!(verdict, Verdict::NoImpact(_));
-        known.then(|| words::in_words(stability, free, matches!(verdict, Verdict::Chaotic(_))))
-    }
-
-    /// The quantities that matter most.
-    fn quantities_text(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> String;
-
-    /// The grounds of the verdict.
-    fn grounds(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> String;
-
-    /// The complete text of one motion.
-    fn told(of: &AnswerOf<Self>, verdict: &Verdict<Self::System>) -> String {
-        let mut text = format!("{}{}: {}\n", verdict.label(), Self::by_stop(of, verdict), Self::meaning(of, verdict));
-        text.push_str(&Self::events_text(of, verdict));
-        if let Some(stability) = Self::stability_words(of, verdict) {
-            let multipliers = words::multipliers(&Self::multipliers(of, verdict));
-            let told = if multipliers.is_empty() { multipliers } else { format!("; multipliers {multipliers}") };
-            let _ = writeln!(text, "  {stability}{told}");
-        }
-        text.push_str(&Self::quantities_text(of, verdict));
-        let _ = writeln!(text, "  shown by: {}", Self::grounds(of, verdict));
-        text
-    }
-
-    /// The events of a motion, and the reason why the list ends.
-    fn simulated(of: &AnswerOf<Self>, found: &Simulated<Self::Event>) -> String;
-
-    /// The word for an event that is followed, and what is told of a settled motion beside it.
-    fn followed(of: &AnswerOf<Self>, found: &Settled<Self::System>) -> (&'static str, String);
-
-    /// Where scattered starts are.
-    fn scattered(of: &AnswerOf<Self>, starts: u64) -> String;
-
-    /// What is told of a basin beside its motions.
-    fn of_basin(found: &Basin<Self::System, Self::Coordinate, Self::Quantity>) -> String;
-
-    /// An orbit; without one why there is none.
-    fn orbit_text(of: &AnswerOf<Self>, orbit: Option<&Orbit<CycleOf<Self>>>) -> String;
-
-    /// Whether regions are known in closed form.
-    fn in_closed_form(_: &RegionPlan<Self::Name>) -> bool {
-        false
-    }
-
-    /// Whether motions are told with their impacts on each of two stops.
-    fn two_stops(_: &AnswerOf<Self>) -> bool {
-        false
-    }
-
-    /// What happens at the event at a point of a branch.
-    fn because(of: &AnswerOf<Self>, point: &PointOf<Self>) -> String;
-
-    /// What is told of margins beside the events.
-    fn of_margins(_: &AnswerOf<Self>, _: &MotionMargins<Self::System, Self::Name, PointOf<Self>>) -> String {
-        String::new()
-    }
-}
-
-impl Teller for SystemPlan {
-    fn heading(of: &AnswerOf<Self>) -> String {
-        let system = words::system(&of.asked(), &of.system);
-        let start = || words::start(&of.start, &of.units);
-        match &of.plan.task {
-            Task::Map(_) | Task::Diagram(_) | Task::Region(_) | Task::Response(_) => String::new(),
-            Task::Attractors { .. } => system,
-            Task::Simulate(_) => system + &start(),
-            Task::Settle { .. } | Task::Lyapunov(_) | Task::Edge(_) => system + &start() + "\n",
-            Task::Margins(plan) if plan.label.is_none() => system + &start() + "\n",
-            _ => system + "\n",
-        }
-    }
-
-    fn meaning(_: &AnswerOf<Self>, verdict: &Verdict) -> String {
-        meaning(verdict)
-    }
-
-    fn by_stop(of: &AnswerOf<Self>, verdict: &Verdict) -> String {
-        by_stop(verdict, &of.system)
-    }
-
-    fn quantity_text(of: &AnswerOf<Self>, verdict: &Verdict, quantity: Quantity) -> String {
-        of_verdict(&of.system, verdict).map_or_else(|| "-".into(), |all| of.units.text(&all, quantity))
-    }
-
-    fn events_text(of: &AnswerOf<Self>, verdict: &Verdict) -> String {
-        let Verdict::Periodic(cycle) = verdict else { return String::new() };
-        words::impacts(cycle, &of.system, &of.units)
-    }
-
-    fn quantities_text(of: &AnswerOf<Self>, verdict: &Verdict) -> String {
-        of_verdict(&of.system, verdict).map_or_else(String::new, |all| quantities_of_oscillator(&all, &of.units))
-    }
-
-    fn grounds(of: &AnswerOf<Self>, verdict: &Verdict) -> String {
-        words::grounds(verdict, &of.system, &of.units)
-    }
-
-    fn simulated(of: &AnswerOf<Self>, found: &Simulated) -> String {
-        simulate::text(found, &of.plan.task, &of.asked())
-    }
-
-    fn followed(of: &AnswerOf<Self>, found: &Settled) -> (&'static str, String) {
-        let before = found.transient.map_or_else(String::new, |chaos| {
-            format!("  chaotic before: a transient that had ended at impact {}\n", chaos.impacts)
-        });
-        ("impact", before + &of.paper_rule.map_or_else(String::new, |(rule, verdict)| settle::of_paper(rule, verdict)))
-    }
-
-    fn scattered(of: &AnswerOf<Self>, starts: u64) -> String {
-        let (StartBox { x, v, .. }, units) = (StartBox::natural(&of.system), &of.units);
-        let [x, v] = [(x, units.length()), (v, units.velocity())]
-            .map(|((low, high), unit)| format!("{} to {}", short(low * unit), short(high * unit)));
-        format!("starts  {starts} in x {x}, v {v}, all phases\n\n")
-    }
-
-    fn of_basin(found: &Basin) -> String {
-        found.measures().map_or_else(String::new, |measures| basin::sentences(&measures))
-    }
-
-    fn orbit_text(of: &AnswerOf<Self>, orbit: Option<&Orbit>) -> String {
-        orbit::of_oscillator(of, orbit)
-    }
-
-    fn in_closed_form(plan: &RegionPlan) -> bool {
-        region::in_closed_form(plan)
-    }
-
-    fn two_stops(of: &AnswerOf<Self>) -> bool {
-        of.written.second_stop.is_some()
-    }
-
-    fn because(_: &AnswerOf<Self>, point: &SolutionPoint) -> String {
-        point.event.map_or_else(String::new, |event| because(event, EventOf::Oscillator(point)))
-    }
-
-    fn of_margins(of: &AnswerOf<Self>, found: &MotionMargins) -> String {
-        margins::of_box(found, &of.system, &of.units)
-    }
-}
+use vibroimpact_study::{Basin, Orbit, Simulated, counted};
 
 impl Teller for MachineSource {
     fn meaning(of: &AnswerOf<Self>, verdict: &Verdict<Machine>) -> String {
