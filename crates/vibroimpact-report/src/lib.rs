@@ -8,10 +8,10 @@
 //! | a plan, its result, and everything that is reported of it | [`answer()`], [`Answer`], [`Shown`] |
 //! | what stands for a cycle on a branch of a machine without stops | [`BranchQuantity`] |
 //! | the system of a question, and the units of results | [`Asked`], [`Units`] |
-//! | the JSON objects of the commands, one for each, whatever the system | [`json`] |
-//! | a response of any system, with its names and units | [`response`] |
-//! | the tables | [`Table`], [`table`] |
-//! | the texts | [`text`] |
+//! | the JSON object, the table and the text of each task, whatever the system | [`task`] |
+//! | what the JSON objects have in common | [`json`] |
+//! | what the tables have in common | [`Table`], [`table`] |
+//! | what the texts have in common | `text` |
 //! | the figures | [`figure`] |
 //! | the views of a settled motion: waveform, phase portrait, multipliers, sections; a diagram with branches over it | [`scene`] |
 //! | the same question as a command line and in Python | [`question`] |

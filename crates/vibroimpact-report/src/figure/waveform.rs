@@ -45,7 +45,7 @@ pub(crate) fn figure(
     let (times, places): (Vec<f64>, Vec<f64>) = Motion::new(osc, start)
         .take(100_000)
         .take_while(|event| event.time <= until)
-        .filter(|event| matches!(event.kind, vibroimpact::motion::EventKind::Impact { .. }))
+        .filter(|event| matches!(event.kind, EventKind::Impact { .. }))
         .map(|event| {
             let gap = osc.stop(event.side).map_or(0.0, |stop| stop.gap);
             ((from + event.time) * time, event.side.sign() * gap * length)
